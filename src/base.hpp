@@ -67,3 +67,5 @@
 #include <sinew/topology/subdivision.hpp>
 #include <sinew/topology/surface_cells.hpp>
 #include <sinew/topology/surface_sampling.hpp>
+#include <sinew/topology/tear_plan.hpp>
+#include <sinew/topology/twins.hpp>

@@ -16,7 +16,10 @@
 #include <sinew/collision/overlaps.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
+#include <sinew/collision/ray_trace_narrow_phase.hpp>
+#include <sinew/collision/solid_contacts.hpp>
 #include <sinew/collision/stick_contact.hpp>
+#include <sinew/collision/sub_collision_pipeline.hpp>
 #include <sinew/collision/surface_cones.hpp>
 #include <sinew/collision/surface_elements.hpp>
 #include <sinew/collision/vertex_contacts.hpp>
@@ -78,6 +81,7 @@
 #include <sinew/engine/voxel_grid_loader.hpp>
 #include <sinew/fluid/fluid2d.hpp>
 #include <sinew/fluid/fluid3d.hpp>
+#include <sinew/force/composite_cells.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
 #include <sinew/force/viscoelastic_material.hpp>

@@ -5,8 +5,11 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <optional>
 #include <tuple>
 
 namespace cli {
@@ -33,8 +36,46 @@ Settings settings_of(std::vector<std::string> const& words, std::string const& o
   return settings;
 }
 
-// "3/10"
+// a number that the environment has
+std::optional<long> environment_number(char const* name) {
+  char const* const word = std::getenv(name);
+  char* end = nullptr;
+  const long value = word ? std::strtol(word, &end, 10) : 0;
+  if (!word || end == word || *end) return {};
+  return value;
+}
+// which part the job is of an array of Slurm or Grid Engine
+std::pair<int, int> part_of_array() {
+  struct Names {
+    char const *task, *first, *last, *step, *count;
+  };
+  for (Names const& n : {Names{"SLURM_ARRAY_TASK_ID",
+                               "SLURM_ARRAY_TASK_MIN",
+                               "SLURM_ARRAY_TASK_MAX",
+                               "SLURM_ARRAY_TASK_STEP",
+                               "SLURM_ARRAY_TASK_COUNT"},
+                         Names{"SGE_TASK_ID", "SGE_TASK_FIRST", "SGE_TASK_LAST", "SGE_TASK_STEPSIZE", ""}}) {
+    const auto task = environment_number(n.task), first = environment_number(n.first),
+               last = environment_number(n.last);
+    if (!task || !first || !last) continue;
+    const long step = std::max(1L, environment_number(n.step).value_or(1));
+    const long parts = (*last - *first) / step + 1, part = (*task - *first) / step + 1;
+    if (environment_number(n.count).value_or(parts) != parts || part < 1 || part > parts || parts > 9999999)
+      throw CLI::ValidationError("--part",
+                                 "the numbers of this job array are no range from first to last, so that it "
+                                 "does not say which part job " +
+                                     std::to_string(*task) + " is; give --part I/N");
+    return {int(part), int(parts)};
+  }
+  throw CLI::ValidationError(
+      "--part",
+      "'array' asks Slurm or Grid Engine which job of an array this is, and there is none here; give --part "
+      "I/N, as in 3/10");
+}
+
+// "3/10", or "array"
 std::pair<int, int> part_of(std::string const& word) {
+  if (word == "array") return part_of_array();
   int part = 0, parts = 0, end = 0;
   if (std::sscanf(word.c_str(), "%7d/%7d%n", &part, &parts, &end) != 2 || std::size_t(end) != word.size() ||
       part < 1 || part > parts)
@@ -205,8 +246,12 @@ Options read_options(int argc, char** argv, int& status) {
   run->add_option("--every", o.run.every, "Steps from one picture and recorded state to the next (default 1)")
       ->type_name("K")
       ->check(at_least(1).description(""));
-  run->add_option("--save", o.run.save, "File for the scene as it is at the end, to go on from")
-      ->type_name("FILE");
+  auto* save = run->add_option("--save", o.run.save, "File for the scene as it is at the end, to go on from")
+                   ->type_name("FILE");
+  run->add_option("--save-every", o.run.saveEvery, "Write that file every K steps, too")
+      ->type_name("K")
+      ->needs(save)
+      ->check(at_least(1).description(""));
   run->add_option("--threads",
                   o.run.threads,
                   "Threads that work, instead of those that the scene asks for; the results are the same")
@@ -215,6 +260,11 @@ Options read_options(int argc, char** argv, int& status) {
   run->add_flag("--mpi",
                 o.run.mpi,
                 "Simulate in several processes, which mpirun has started: mpirun -n 4 sinew run FILE --mpi");
+  run->add_option("--patience",
+                  o.run.patience,
+                  "Seconds after which one of them that waits for another ends the run (default 300)")
+      ->type_name("SECONDS")
+      ->check(positive_seconds().description(""));
   auto* profile = run->add_flag("--profile", o.run.profile, "Print where the time of the steps goes");
   run->add_option("--trace",
                   o.run.trace,
@@ -316,8 +366,10 @@ Options read_options(int argc, char** argv, int& status) {
       "root.gravity='0 -9.81 0,0 0 0'\n"
       "                       --measure Liver/dofs.position[12]\n"
       "As a job array, then in one table:\n"
-      "           sinew sweep ... --part $SLURM_ARRAY_TASK_ID/10 --output part_$SLURM_ARRAY_TASK_ID.csv\n"
-      "           sinew sweep --merge part_*.csv --output liver.csv");
+      "           sinew sweep liver.scn ... --part array\n"
+      "           sinew sweep --merge liver.sweep.*of*.csv --output liver.csv\n"
+      "On several machines, into one table:\n"
+      "           mpirun -n 64 sinew sweep liver.scn ... --mpi");
   sweep->add_option("scene", o.sweep.scene.path, "Scene file")->type_name("FILE");
   std::vector<std::string> sweepSet;
   std::string part;
@@ -360,7 +412,18 @@ Options read_options(int argc, char** argv, int& status) {
                    "Threads of each run, instead of those that the scene asks for; the results are the same")
       ->type_name("N")
       ->check(CLI::Range(1, 256).description(""));
-  sweep->add_option("--part", part, "Run only every N-th combination, from the I-th on")->type_name("I/N");
+  sweep
+      ->add_option("--part",
+                   part,
+                   "Run only every N-th combination, from the I-th on; 'array': as this job of an array of "
+                   "Slurm or Grid Engine")
+      ->type_name("I/N");
+  sweep->add_flag(
+      "--mpi",
+      o.sweep.mpi,
+      "Run on the ranks that mpirun has started, --jobs at a time on each (default 1), into one table");
+  sweep->add_option("--worker", o.sweep.worker)->group("");
+  sweep->add_option("--beside", o.sweep.beside)->group("");
   sweep->add_option("--merge", o.sweep.merge, "Put tables of parts together, and run nothing")
       ->type_name("FILES")
       ->expected(1, 1'000'000);
@@ -396,7 +459,7 @@ Options read_options(int argc, char** argv, int& status) {
     o.sweep.set = settings_of(sweepSet, "--set");
     if (!part.empty()) std::tie(o.sweep.part, o.sweep.parts) = part_of(part);
     if (sweep->parsed() && !o.sweep.merge.empty()) {
-      for (char const* option : {"scene", "--set", "--table", "--measure", "--part", "--retry"})
+      for (char const* option : {"scene", "--set", "--table", "--measure", "--part", "--retry", "--mpi"})
         if (sweep->count(option) > 0)
           throw CLI::ValidationError("--merge",
                                      std::string("runs nothing, and takes no ") + option + "; leave it out");
@@ -417,7 +480,7 @@ Options read_options(int argc, char** argv, int& status) {
   auto given = [](CLI::App* command) { return command->count("--steps") + command->count("--time") > 0; };
   o.run.duration.given = given(run);
   o.compare.duration.given = given(compare);
-  o.sweep.output = output_of(sweepQuiet, sweepJson);
+  o.sweep.output = o.sweep.worker > 0 ? Output::quiet : output_of(sweepQuiet, sweepJson);
   o.sweep.duration.given = given(sweep);
   o.command = run->parsed()     ? Command::run
               : view->parsed()  ? Command::view

@@ -54,9 +54,10 @@ struct RunOptions {
   std::string vtk{}, png{}, film{}, gltf{}, record{}, forces{}, save{};
   int width = 1280, height = 960;  // of pictures [pixels]
   SeenOptions seen{};
-  long every = 1;
-  int threads = 0;  // as the scene says
+  long every = 1, saveEvery = 0;  // steps; 0: at the end only
+  int threads = 0;                // as the scene says
   bool mpi = false;
+  double patience = 300;  // of ranks [s]
   bool profile = false;
   std::string trace{};
   Output output = Output::words;
@@ -100,6 +101,8 @@ struct SweepOptions {
   int part = 1, parts = 1;
   double timeLimit = 0;  // of a run [s]; 0: none
   bool retry = false;
+  bool mpi = false;
+  int worker = -1, beside = 1;  // does the runs of this rank of `sweep --mpi`, one of so many on the machine
   Output output = Output::words;
 };
 

@@ -29,17 +29,16 @@ std::vector<T> copy(std::span<T const> elements) {
 void take_elements(sinew::TopologyView const& topology, sinew::Mesh& mesh) {
   mesh.tetrahedra = copy(topology.tetrahedra);
   mesh.hexahedra = copy(topology.hexahedra);
-  if (!mesh.tetrahedra.empty() || !mesh.hexahedra.empty()) return;
+  mesh.pyramids = copy(topology.pyramids);
+  mesh.prisms = copy(topology.prisms);
+  if (sinew::dimension_of(mesh) == 3) return;
   mesh.triangles = copy(topology.triangles);
   mesh.quads = copy(topology.quads);
   if (!mesh.triangles.empty() || !mesh.quads.empty()) return;
   mesh.edges = copy(topology.edges);
 }
 
-bool has_elements(sinew::TopologyView const& t) {
-  return !t.edges.empty() || !t.triangles.empty() || !t.quads.empty() || !t.tetrahedra.empty() ||
-         !t.hexahedra.empty();
-}
+bool has_elements(sinew::TopologyView const& t) { return sinew::dimension_of(t) > 0; }
 
 // what contacts do to the points of the state of a node
 std::vector<Eigen::Vector3d> contact_forces(Node& top, Node& node) {

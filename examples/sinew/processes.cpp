@@ -73,10 +73,11 @@ void Processes::start(std::size_t job, std::function<std::string()> const& f) {
   running_.push_back({job, id, ends[0], {}, end});
 }
 
-std::optional<Processes::Ended> Processes::wait() {
-  while (!was_interrupted() && !running_.empty()) {
+std::optional<Processes::Ended> Processes::wait(int alsoFrom) {
+  while (!was_interrupted() && (!running_.empty() || alsoFrom >= 0)) {
     std::vector<pollfd> pipes;
     for (Process const& p : running_) pipes.push_back({p.from, POLLIN, 0});
+    pipes.push_back({alsoFrom, POLLIN, 0});  // none where it is negative
     // a signal that comes just before poll is seen at the next look
     const int ready = ::poll(pipes.data(), nfds_t(pipes.size()), 100);
     const auto now = Clock::now();
@@ -85,6 +86,7 @@ std::optional<Processes::Ended> Processes::wait() {
       const bool ended = ready > 0 && pipes[i].revents != 0 && !readFrom(running_[i]);
       if (ended || late) return reap(i, late && !ended);
     }
+    if (ready > 0 && pipes.back().revents != 0) return {};
   }
   return {};
 }

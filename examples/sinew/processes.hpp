@@ -32,8 +32,9 @@ class Processes {
   std::size_t size() const { return running_.size(); }
   /// Throws Failure where there can be no more processes.
   void start(std::size_t job, std::function<std::string()> const& f);
-  /// Waits for one to end; nothing where Ctrl-C was pressed (was_interrupted()).
-  std::optional<Ended> wait();
+  /// Waits for one to end; nothing where Ctrl-C was pressed (was_interrupted()), and where there is something
+  /// to be read from this file.
+  std::optional<Ended> wait(int alsoFrom = -1);
   void kill();
 
  private:

@@ -50,6 +50,7 @@ int cli::program(int argc, char** argv) try {
     case cli::Command::compare:
       return cli::compare(options.compare);
     case cli::Command::sweep:
+      if (options.sweep.mpi && options.sweep.worker < 0) hand_over(argv);
       return cli::sweep(options.sweep);
     default:
       return status;

@@ -63,6 +63,23 @@ constexpr std::string_view jelly = R"(
   <ShapeMatching name="matching" cluster="@clustering.cluster"/>
   <PositionBasedDynamicsProjectiveConstraint stiffness="0.3" position="@matching.targetPosition"/>
 </Node>)";
+// a soft body with a stiff one in it, in few hexahedra
+constexpr std::string_view composite = R"(
+<Node name="fruit" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <SparseGridMultipleTopology n="4 4 4" nbVirtualFinerLevels="2" finestConnectivity="false" stiffnessCoefs="1 100"
+                              massCoefs="1 2" fileTopologies="data/ball.obj data/organ.obj"/>
+  <MechanicalObject/>
+  <HexahedronCompositeFEMForceField youngModulus="500000" poissonRatio="0.3"/>
+  <HexahedronCompositeFEMMass massDensity="1000" poissonRatio="0.3"/>
+  <FixedConstraint indices="0 1 2"/>
+  <Node name="stone">
+    <MeshOBJLoader name="surface" filename="data/organ.obj"/>
+    <VisualModel src="@surface"/>
+    <HexahedronCompositeFEMMapping poissonRatio="0.3"/>
+  </Node>
+</Node>)";
 // a body that another one follows
 constexpr std::string_view carrier = R"(
 <Node name="body" gravity="0 -9.81 0">
@@ -394,6 +411,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 
     {"BeamMass", "", beams, ""},
     {"DiagonalMass", R"(<DiagonalMass massDensity="1000"/>)"},
+    {"HexahedronCompositeFEMMass", "", composite, ""},
     {"MeshMatrixMass", R"(<MeshMatrixMass massDensity="1000"/>)"},
     {"UniformMass", "", softBody, ""},
 
@@ -436,6 +454,33 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <GearSpringForceField spring="BEGIN_SPRING 0 0 1 1 AXIS 2 2 KS_T 1000 KS_R 100 1000 KD 0.001 RATIO 0.5 END_SPRING"/>
 </Node>)"},
     {"HexahedronFEMForceField", R"(<HexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)"},
+    {"HexahedronCompositeFEMForceField", "", composite, ""},
+    {"PrismFEMForceField",
+     R"(<PrismFEMForceField youngModulus="5000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="wedge" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology prisms="0 1 2  3 4 5  3 4 5  6 7 8"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0 0.1 0   0 0 0.1  0.1 0 0.1  0 0.1 0.1   0 0 0.2  0.1 0 0.2  0 0.1 0.2"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="0 1 2"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"PyramidFEMForceField",
+     R"(<PyramidFEMForceField youngModulus="5000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="cube" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology pyramids="0 1 2 3 8  7 6 5 4 8  0 4 5 1 8  1 5 6 2 8  2 6 7 3 8  3 7 4 0 8"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0.1 0.1 0  0 0.1 0   0 0 0.1  0.1 0 0.1  0.1 0.1 0.1  0 0.1 0.1   0.05 0.05 0.05"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="2 3 6 7"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -889,6 +934,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <ConstantForceField forces="-0.5"/>
   </Node>
 </Node>)"},
+    {"HexahedronCompositeFEMMapping", "", composite, ""},
     {"IdentityMapping",
      R"(
 <Node name="skin">
@@ -961,6 +1007,64 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <MechanicalObject/>
     <SubsetMultiMapping input="@../upper @../lower" indexPairs="0 1  1 0"/>
     <StiffSpringForceField spring="0 1 50 0.2 0.5"/>
+  </Node>
+</Node>)"},
+    {"InteractionEllipsoidForceField", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="obstacle">
+    <EulerExplicitSolver/>
+    <MechanicalObject template="Rigid3" position="0 -1 0  0 0 0 1" velocity="0 0 0  0 0 1"/>
+    <UniformMass vertexMass="1"/>
+    <PartialFixedConstraint indices="0" fixedDirections="1 1 1 0 0 0"/>
+  </Node>
+  <Node name="body">
+    <EulerImplicitSolver/>
+    <SparseLDLSolver/>
+    <MechanicalObject position="-0.3 -0.8 0  0.3 -0.8 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <InteractionEllipsoidForceField object2="@../obstacle" object2_forces="0" vradius="0.6 0.4 0.5" stiffness="50" damping="1"/>
+  </Node>
+</Node>)"},
+    {"DeformableOnRigidFrameMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <Node name="frame">
+    <MechanicalObject template="Rigid3" position="0 0 0  0 0 0 1"/>
+    <UniformMass vertexMass="1"/>
+    <PartialFixedConstraint indices="0" fixedDirections="1 1 1 0 0 0"/>
+  </Node>
+  <Node name="body">
+    <MechanicalObject position="0 0 0  1 0 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 1"/>
+    <FixedConstraint indices="0"/>
+    <Node name="world">
+      <MechanicalObject/>
+      <DeformableOnRigidFrameMapping input1="@.." input2="@../../frame"/>
+      <ConstantForceField indices="1" force="0 2 0"/>
+    </Node>
+  </Node>
+</Node>)"},
+    {"DistanceMultiMapping", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver/>
+  <Node name="upper">
+    <MechanicalObject position="0 0 0  0 -0.5 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <StiffSpringForceField spring="0 1 100 0.1 0.5"/>
+    <FixedConstraint indices="0"/>
+  </Node>
+  <Node name="lower">
+    <MechanicalObject position="0 -1 0"/>
+    <UniformMass vertexMass="0.1"/>
+  </Node>
+  <Node name="joint">
+    <MechanicalObject template="Vec1"/>
+    <MeshTopology edges="0 1"/>
+    <DistanceMultiMapping input="@../upper @../lower" indexPairs="0 1  1 0"/>
+    <RestShapeSpringsForceField stiffness="50"/>
   </Node>
 </Node>)"},
     {"IdentityMultiMapping", R"(
@@ -1781,6 +1885,24 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <HERE/>
 </Node>)",
      "HERE"},
+    {"Hexa2PrismTopologicalMapping",
+     R"(
+<Node name="volume">
+  <MeshTopology name="container"/>
+  <Hexa2PrismTopologicalMapping input="@../grid" output="@container"/>
+  <PrismFEMForceField youngModulus="20000" poissonRatio="0.3"/>
+</Node>)",
+     R"(
+<Node name="beam" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <RegularGridTopology name="grid" n="5 3 3" max="0.4 0.1 0.1"/>
+  <MechanicalObject/>
+  <UniformMass totalMass="4"/>
+  <FixedConstraint indices="0 5 10 15 20 25 30 35 40"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
     {"Tetra2TriangleTopologicalMapping",
      R"(
 <TetrahedronFEMForceField youngModulus="2000" poissonRatio="0.3"/>
@@ -1909,6 +2031,120 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <PointCollisionModel contactStiffness="20"/>)",
      friction,
      "PointCollisionModel"},
+    {"OBBCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="slab">
+    <MechanicalObject template="Rigid3d" position="0 -0.1 0  0 0 0 1"/>
+    <OBBCollisionModel extents="1 0.1 1" moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="bricks">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject template="Rigid3d" position="0 0.22 0  0 0 0 1  0.5 0.4 0  0.1 0 0 0.995"/>
+    <UniformMass vertexMass="1 1  0.01 0 0  0 0.01 0  0 0 0.01"/>
+    <OBBCollisionModel extents="0.2 0.1 0.1  0.1 0.1 0.1" contactStiffness="100" contactDamping="2"/>
+  </Node>
+</Node>)"},
+    {"CapsuleCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="rope">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MeshTopology edges="0 1  1 2"/>
+    <MechanicalObject position="-0.2 0.2 0  0 0.3 0  0.2 0.3 0"/>
+    <UniformMass vertexMass="0.1"/>
+    <MeshSpringForceField stiffness="500" damping="1"/>
+    <CapsuleCollisionModel listCapsuleRadii="0.02 0.04" contactStiffness="10" contactDamping="1"/>
+  </Node>
+</Node>)"},
+    {"TetrahedronCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="block">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" max="0.4 0.4 0.4"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 1 2 9 10 11 18 19 20"/>
+    <TetrahedronCollisionModel contactStiffness="10"/>
+  </Node>
+  <Node name="ball">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0.25 0.3 0.2"/>
+    <UniformMass totalMass="0.1"/>
+    <SphereCollisionModel radius="0.05" contactStiffness="10" contactDamping="1"/>
+  </Node>
+</Node>)"},
+    {"RayTraceNarrowPhase", R"(
+<Node name="root" gravity="0 0 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <RayTraceNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="left">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" max="0.4 0.4 0.4"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <TriangleCollisionModel contactStiffness="5"/>
+  </Node>
+  <Node name="right">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <RegularGridTopology n="3 3 3" min="0.3 0.1 0.1" max="0.7 0.5 0.5"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="4"/>
+    <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
+    <TriangleCollisionModel contactStiffness="5"/>
+  </Node>
+</Node>)"},
+    {"SubCollisionPipeline", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <Node name="pipeline">
+    <SubCollisionPipeline collisionModels="ball floor"/>
+    <BruteForceBroadPhase/>
+    <BVHNarrowPhase/>
+    <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+    <DefaultContactManager/>
+  </Node>
+  <Node name="floor">
+    <MeshTopology triangles="0 1 2  0 2 3"/>
+    <MechanicalObject position="-1 0 1  1 0 1  1 0 -1  -1 0 -1"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="ball">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0 0.3 0"/>
+    <UniformMass totalMass="1"/>
+    <SphereCollisionModel radius="0.1" contactStiffness="100" contactDamping="5"/>
+  </Node>
+</Node>)"},
     {"ConvexCollisionModel", R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>
@@ -1952,6 +2188,19 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <TriangleFEMForceField youngModulus="1000" thickness="0.01"/>
   <FixedConstraint indices="0 1"/>
   <TopologyBoundingTrasher box="-1 -1 -0.5 2 3 1"/>
+</Node>)"},
+    {"TearingEngine", R"(
+<Node name="sheet" gravity="0 0 0">
+  <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="1"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <GridMeshCreator name="grid" resolution="8 8" trianglePattern="1"/>
+  <MeshTopology triangles="@grid.triangles"/>
+  <MechanicalObject src="@grid"/>
+  <DiagonalMass massDensity="1"/>
+  <TriangleFEMForceField youngModulus="1000" poissonRatio="0.3" thickness="0.01"/>
+  <FixedConstraint indices="0 1 2 3 4 5 6 7"/>
+  <LinearMovementConstraint indices="56 57 58 59 60 61 62 63" keyTimes="0 1" movements="0 0 0  0 1 0"/>
+  <TearingEngine stressThreshold="300" fractureMaxLength="0.3" step="2"/>
 </Node>)"},
     {"CuttingManager", R"(
 <Node name="root" gravity="0 0 -9.81">

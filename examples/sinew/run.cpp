@@ -54,6 +54,8 @@ class Outputs {
   void addStep() {
     writing([&] {
       if (forces_) forces_->add(scene_.simulation);
+      if (options_.saveEvery > 0 && scene_.simulation.step() % options_.saveEvery == 0)
+        sinew::save_scene(scene_.simulation, scene_.dt, options_.save);
     });
   }
   /// Where the time has gone; null where nobody has asked.

@@ -3,12 +3,16 @@
 #include "json.hpp"
 #include "processes.hpp"
 #include "sweep_plan.hpp"
+#include "sweep_summary.hpp"
 
 #include "support/progress.hpp"
 
 #include <sinew/io/text_reader.hpp>
 
+#include <unistd.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
 
 namespace cli {
@@ -48,38 +52,11 @@ void look_at_scene(SweepPlan& plan) {
   plan.know(lines);
 }
 
-// what a sweep comes to
-struct SweepSummary {
-  std::string scene, output;
-  std::size_t runs, part, before = 0, done = 0, failed = 0, firstFailed = 0;
-  double seconds = 0;
-  bool interrupted = false;
-  std::string firstError{};
-
-  Json json(std::vector<std::string> const& errors) const {
-    return Json()
-        .set("scene", scene)
-        .set("combinations", runs)
-        .set("part", part)
-        .set("before", before)
-        .set("runs", done)
-        .set("failed", failed)
-        .set("seconds", seconds)
-        .set("file", output)
-        .set("interrupted", interrupted)
-        .set("errors", errors);
-  }
-};
-
-std::string amount(std::size_t n, std::string_view one, std::string_view many) {
-  return text(n, ' ', n == 1 ? one : many);
-}
-
 void run_missing(SweepPlan const& plan, SweepTable& table, std::vector<std::size_t> const& missing,
                  bool words, SweepSummary& summary) {
   Processes processes(plan.options.timeLimit);
   const auto jobs = std::size_t(plan.jobs());
-  examples::Progress progress(long(std::max<std::size_t>(summary.part, 1)));
+  examples::Progress progress(long(std::max<std::size_t>(summary.part(), 1)));
   examples::Stopwatch clock;
   clock.start();
   for (std::size_t next = 0; next < missing.size() || processes.size() > 0;) {
@@ -90,15 +67,8 @@ void run_missing(SweepPlan const& plan, SweepTable& table, std::vector<std::size
     const auto ended = processes.wait();
     if (!ended) break;
     std::string line = ended->said ? *ended->said : plan.failed(ended->job, ended->error);
-    if (has_error(line)) {
-      const auto fields = csv_fields(line);
-      if (summary.failed++ == 0 || ended->job < summary.firstFailed) {
-        summary.firstFailed = ended->job;
-        summary.firstError = fields ? fields->back() : "";
-      }
-    }
+    summary.count(ended->job, line);
     table.add(ended->job, std::move(line));
-    ++summary.done;
     if (words) progress.at(long(summary.before + summary.done));
   }
   clock.stop();
@@ -168,15 +138,55 @@ int merge(SweepOptions const& options) {
   return ok;
 }
 
+void say(std::string_view lines) {
+  while (!lines.empty()) {
+    const ssize_t n = ::write(1, lines.data(), lines.size());
+    if (n < 0 && errno != EINTR) throw Failure{interrupted, {}};  // nobody listens any more
+    if (n > 0) lines.remove_prefix(std::size_t(n));
+  }
+}
+
+// For a rank of `sinew sweep --mpi`, which has started this process: says what the sweep is, then runs what
+// standard input has the numbers of, a line each, and says the lines of the table, until that ends.
+int work(SweepPlan& plan) {
+  try {
+    look_at_scene(plan);
+  } catch (Failure const& failure) {
+    std::string said = text(failure.status, ' ', failure.messages.size(), '\n');
+    for (auto const& message : failure.messages) said += message + '\n';
+    say(said);
+    return failure.status;
+  }
+  say(text("0 3\n", plan.output, '\n', plan.header.text()));
+  Processes processes(plan.options.timeLimit);
+  std::string told;
+  for (;;) {
+    if (const auto ended = processes.wait(STDIN_FILENO)) {
+      say(ended->said ? *ended->said + '\n' : plan.failed(ended->job, ended->error) + '\n');
+      continue;
+    }
+    if (was_interrupted()) return interrupted;
+    char bytes[4096];
+    const ssize_t n = ::read(STDIN_FILENO, bytes, sizeof bytes);
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return ok;
+    told.append(bytes, std::size_t(n));
+    for (std::size_t end; (end = told.find('\n')) != told.npos; told.erase(0, end + 1)) {
+      const auto run = std::size_t(std::stoul(told.substr(0, end)));
+      processes.start(run, [&plan, run] { return plan.run(run); });
+    }
+  }
+}
+
 }  // namespace
 
 int sweep(SweepOptions const& options) {
   if (!options.merge.empty()) return merge(options);
   SweepPlan plan(options);
-  const bool words = options.output == Output::words;
   catch_interrupt();
+  if (options.worker >= 0) return work(plan);
   const std::vector<std::size_t> part = plan.ofPart();
-  SweepSummary summary{options.scene.path, plan.output, plan.combinations.size(), part.size()};
+  SweepSummary summary(options, plan.output, plan.combinations.size(), part.size());
   try {
     look_at_scene(plan);
     SweepTable table(plan.output, plan.header, options.retry);
@@ -184,41 +194,15 @@ int sweep(SweepOptions const& options) {
     for (const std::size_t run : part)
       if (!table.has(run)) missing.push_back(run);
     summary.before = part.size() - missing.size();
-    if (words) {
-      std::printf(
-          "%s: %s", options.scene.path.c_str(), amount(summary.runs, "combination", "combinations").c_str());
-      if (options.parts > 1)
-        std::printf(", of which part %d of %d has %zu", options.part, options.parts, part.size());
-      if (summary.before > 0) std::printf("; %zu are in %s already", summary.before, plan.output.c_str());
-      std::printf("\n");
-      if (!options.duration.given)
-        std::printf("%ld steps each; --steps or --time simulates more\n", options.duration.steps);
-      std::fflush(stdout);
-    }
-    run_missing(plan, table, missing, words, summary);
+    summary.printStart();
+    run_missing(plan, table, missing, options.output == Output::words, summary);
     table.sort();
   } catch (Failure const& failure) {
-    if (options.output == Output::json) std::printf("%s\n", summary.json(failure.messages).text().c_str());
+    summary.printFailure(failure.messages);
     throw;
   }
-  if (options.output == Output::json) {
-    std::printf("%s\n", summary.json(std::vector<std::string>{}).text().c_str());
-  } else if (words) {
-    std::printf("%s in %.3g s", amount(summary.done, "run", "runs").c_str(), summary.seconds);
-    if (summary.failed > 0)
-      std::printf("; %zu with an error, run %zu: %s",
-                  summary.failed,
-                  summary.firstFailed + 1,
-                  summary.firstError.c_str());
-    std::printf("\nwrote %s\n", plan.output.c_str());
-    if (summary.interrupted)
-      std::printf(
-          "interrupted; the table is whole, and the same command goes on with the %zu runs that are "
-          "missing\n",
-          summary.part - summary.before - summary.done);
-  }
-  if (summary.interrupted) return interrupted;
-  return ok;
+  summary.printEnd();
+  return summary.interrupted ? interrupted : ok;
 }
 
 }  // namespace cli

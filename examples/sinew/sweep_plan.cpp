@@ -88,6 +88,7 @@ SweepPlan::SweepPlan(SweepOptions const& asked)
 
 int SweepPlan::jobs() const {
   if (options.jobs > 0) return options.jobs;
+  if (options.worker >= 0) return 1;
   const int cores = std::max(1, int(std::thread::hardware_concurrency()));
   return std::max(1, cores / std::max(1, options.threads));
 }
@@ -176,7 +177,7 @@ void SweepPlan::addResults(F&& f) const {
 
 SceneOptions SweepPlan::sceneOf(std::optional<std::size_t> run) const {
   SceneOptions scene = options.scene;
-  scene.processes = jobs();
+  scene.processes = jobs() * options.beside;
   if (!run) return scene;
   const auto values = combinations.values(*run);
   for (std::size_t i = 0; i < values.size(); ++i) scene.set.emplace_back(combinations.paths()[i], values[i]);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Seconds to |b - A x| = 1e-6 |b| over one assembled matrix on a GPU, by multigrid and by conjugate gradients
-// with diagonal blocks: multigrid CELLS... [--float] [--threads N], of unit cubes of CELLS^3 cells of six
-// tetrahedra, held at three points, in the third step with implicit Euler. Prints a line a solver:
+// with diagonal blocks: multigrid CELLS... [--float] [--threads N] [--whole POINTS] [--no-jacobi], of unit
+// cubes of CELLS^3 cells of six tetrahedra, held at three points, in the third step with implicit Euler;
+// --whole: solves of bodies of so many points are one kernel (0: of none). Prints a line a solver:
 // tetrahedra; points; real; solver; milliseconds of the first set-up with the patterns, of a later one, of
 // the solution; iterations; residual; levels; of a whole step.
 #include <sinew/gpu/gpu.hpp>
@@ -140,9 +141,10 @@ void measure(Mesh const& mesh, char const* name, Linear linear, int threads) {
 }
 
 template <class D>
-void measure(int cells, int threads) {
+void measure(int cells, int threads, bool jacobi) {
   const Mesh mesh = block(cells);
   measure<D>(mesh, "multigrid", MultigridLinearSolver<>{}, threads);
+  if (!jacobi) return;
   measure<D>(mesh,
              "block Jacobi",
              ShewchukPCGLinearSolver<CompressedRowSparseMatrixMat3x3d>{
@@ -155,11 +157,15 @@ void measure(int cells, int threads) {
 int main(int count, char** arguments) try {
   std::vector<int> cells;
   int threads = 1;
-  bool single = false;
+  bool single = false, jacobi = true;
   for (int i = 1; i < count; ++i) {
     const std::string_view word = arguments[i];
     if (word == "--float")
       single = true;
+    else if (word == "--no-jacobi")
+      jacobi = false;
+    else if (word == "--whole" && i + 1 < count)
+      gpu::most_points_of_whole_multigrid() = std::size_t(std::atoi(arguments[++i]));
     else if (word == "--threads" && i + 1 < count)
       threads = std::atoi(arguments[++i]);
     else
@@ -167,9 +173,9 @@ int main(int count, char** arguments) try {
   }
   for (const int n : cells)
     if (single)
-      measure<CudaVec3f>(n, threads);
+      measure<CudaVec3f>(n, threads, jacobi);
     else
-      measure<CudaVec3d>(n, threads);
+      measure<CudaVec3d>(n, threads, jacobi);
 } catch (sinew::Error const& error) {
   std::fprintf(stderr, "multigrid: %s\n", error.what());
   return 1;

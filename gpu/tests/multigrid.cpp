@@ -21,6 +21,8 @@
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -114,9 +116,19 @@ Count count(Beam const& beam, MultigridLinearSolver<> linear = {}) {
   return {int(residuals.size()) - 1, levels, residuals.back()};
 }
 
+/// Solves are one kernel, where these are bodies of so many points at most; on the host by so many threads.
+struct Whole {
+  std::size_t points = gpu::most_points_of_whole_multigrid();
+  explicit Whole(bool is) { gpu::most_points_of_whole_multigrid() = is ? 1000000 : 0; }
+  Whole(Whole const&) = delete;
+  ~Whole() { gpu::most_points_of_whole_multigrid() = points; }
+};
+
 }  // namespace
 
 TEST_CASE("multigrid on the device finds what the processor's finds") {
+  const bool whole = GENERATE(true, false);
+  const Whole kernel(whole);
   for (const int coarsestSize : {30, 200, 100000})
     for (const Beam beam : {Beam{},
                             Beam{.held = false},
@@ -131,6 +143,8 @@ TEST_CASE("multigrid on the device finds what the processor's finds") {
 }
 
 TEST_CASE("a cycle on the device is the processor's: as many iterations, flat with the mesh") {
+  const bool whole = GENERATE(true, false);
+  const Whole kernel(whole);
   for (const int cells : {4, 6, 10, 14}) {
     const Beam beam{.cells = cells};
     const Count device = count<CudaVec3d>(beam), host = count<Vec3d>(beam), floats = count<CudaVec3f>(beam);
@@ -149,8 +163,69 @@ TEST_CASE("a cycle on the device is the processor's: as many iterations, flat wi
 
 TEST_CASE("a cycle on the device has the same bits in two runs") {
   const Beam beam{.rails = true, .contrast = true};
-  CHECK(course<CudaVec3d>(beam, MultigridLinearSolver<>{}, 10) ==
-        course<CudaVec3d>(beam, MultigridLinearSolver<>{}, 10));
+  for (const bool whole : {true, false}) {
+    const Whole kernel(whole);
+    CHECK(course<CudaVec3d>(beam, MultigridLinearSolver<>{}, 10) ==
+          course<CudaVec3d>(beam, MultigridLinearSolver<>{}, 10));
+  }
+}
+
+TEST_CASE("a solve that is one kernel has the iterations and residuals of one with many") {
+  for (const Beam beam : {Beam{}, Beam{.rails = true, .contrast = true}, Beam{.cells = 7, .poisson = 0.45}}) {
+    auto run = [&](bool whole) {
+      const Whole kernel(whole);
+      auto sim = scene<CudaVec3d>(beam, MultigridLinearSolver<>{.coarsestSize = 60});
+      sim.init();
+      for (int i = 0; i < 3; ++i) sim.animate(0.02);
+      return std::pair(std::vector(solver_of(sim).residuals), velocities(sim));
+    };
+    const auto one = run(true), many = run(false);
+    REQUIRE(one.first.size() == many.first.size());
+    for (std::size_t i = 0; i < one.first.size(); ++i)
+      CHECK(one.first[i] == Approx(many.first[i]).epsilon(0.02));  // sums of the cycle are in float
+    CHECK(difference(one.second, many.second) < 1e-6);
+  }
+#if !SINEW_CUDA
+  // by several threads
+  auto& threads = gpu::host_team_threads();
+  const std::vector<double> alone = course<CudaVec3d>(Beam{}, MultigridLinearSolver<>{});
+  threads = 3;
+  const std::vector<double> three = course<CudaVec3d>(Beam{}, MultigridLinearSolver<>{});
+  threads = 1;
+  CHECK(difference(three, alone) < 1e-6);
+#endif
+}
+
+TEST_CASE("the coarsest matrix is inverted") {
+  for (const int n : {1, 3, 54, 64, 66, 128, 156, 198, 224, 231, 300}) {
+    CAPTURE(n);
+    // symmetric, positive definite, with unit diagonal
+    Eigen::MatrixXd root(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) root(i, j) = std::sin(1 + 3.7 * i + 1.3 * j * j) + (i == j ? 4 : 0);
+    Eigen::MatrixXd a = root * root.transpose();
+    const Eigen::VectorXd scale = a.diagonal().cwiseSqrt().cwiseInverse();
+    a = scale.asDiagonal() * a * scale.asDiagonal();
+    auto inverted = [n](Eigen::MatrixXd of) {
+      gpu::DeviceArray<double> there;
+      there.resize(std::size_t(n) * std::size_t(n + 2));
+      gpu::copy_to_device(there.data(), of.data(), std::size_t(n) * std::size_t(n));
+      gpu::multigrid::invert(there.data(), n, there.data() + std::ptrdiff_t(n) * n);
+      gpu::copy_to_host(of.data(), there.data(), std::size_t(n) * std::size_t(n));
+      return of;
+    };
+    const double condition = a.norm() * a.inverse().norm();
+    CHECK((inverted(a) * a - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-14 * condition);
+    if (n < 3) continue;
+    // an unknown without a pivot gets nothing, and the others what they had without it
+    Eigen::MatrixXd without = a;
+    without.row(1).setZero(), without.col(1).setZero();
+    const Eigen::MatrixXd inverse = inverted(without);
+    CHECK(inverse.row(1).norm() + inverse.col(1).norm() == 0);
+    Eigen::MatrixXd one = inverse * without;
+    one(1, 1) += 1;
+    CHECK((one - Eigen::MatrixXd::Identity(n, n)).norm() < 1e-14 * condition);
+  }
 }
 
 TEST_CASE("a cycle on the device is kept, and its modes too") {
@@ -254,6 +329,12 @@ TEST_CASE("what is not finite is said by the state, with multigrid on the device
   sim.animate(0.02);
   sim.root().state().velocity[7][1] = std::numeric_limits<double>::quiet_NaN();
   CHECK_THROWS_WITH(sim.animate(0.02), Contains("not a finite number"));
+  const Whole kernel(false);
+  auto other = scene<CudaVec3d>(Beam{}, MultigridLinearSolver<>{});
+  other.init();
+  other.animate(0.02);
+  other.root().state().velocity[7][1] = std::numeric_limits<double>::quiet_NaN();
+  CHECK_THROWS_WITH(other.animate(0.02), Contains("not a finite number"));
 }
 
 }  // namespace test_gpu_multigrid

@@ -5,6 +5,7 @@
 // All components of collision:
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
+#include <sinew/collision/capsule_collision_model.hpp>
 #include <sinew/collision/carving_manager.hpp>
 #include <sinew/collision/collision_model.hpp>
 #include <sinew/collision/contact_manager.hpp>
@@ -16,6 +17,9 @@
 #include <sinew/collision/local_min_distance.hpp>
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/point_collision_model.hpp>
+#include <sinew/collision/ray_trace_narrow_phase.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
+#include <sinew/collision/sub_collision_pipeline.hpp>
+#include <sinew/collision/tetrahedron_collision_model.hpp>
 #include <sinew/collision/tree_broad_phase.hpp>
 #include <sinew/collision/triangle_collision_model.hpp>

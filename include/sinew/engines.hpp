@@ -84,6 +84,7 @@
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
 #include <sinew/topology/surface_sampling.hpp>
+#include <sinew/topology/tearing_engine.hpp>
 #include <sinew/topology/tetrahedron_topology.hpp>
 #include <sinew/topology/topological_change_processor.hpp>
 #include <sinew/topology/topology_bounding_trasher.hpp>

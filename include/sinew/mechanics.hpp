@@ -41,8 +41,10 @@
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
 #include <sinew/force/gear_spring.hpp>
+#include <sinew/force/hexahedron_composite_fem.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/force/immersed_solid.hpp>
+#include <sinew/force/interaction_ellipsoid_force_field.hpp>
 #include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
@@ -50,9 +52,12 @@
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_rest_shape_springs.hpp>
 #include <sinew/force/polynomial_springs.hpp>
+#include <sinew/force/prism_fem.hpp>
+#include <sinew/force/pyramid_fem.hpp>
 #include <sinew/force/quad_bending_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
+#include <sinew/force/solid_element_fem.hpp>
 #include <sinew/force/sph_fluid.hpp>
 #include <sinew/force/sphere_force_field.hpp>
 #include <sinew/force/stiff_spring.hpp>
@@ -73,9 +78,12 @@
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>
+#include <sinew/mapping/deformable_on_rigid_frame_mapping.hpp>
 #include <sinew/mapping/distance_from_target_mapping.hpp>
 #include <sinew/mapping/distance_mapping.hpp>
+#include <sinew/mapping/distance_multi_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
+#include <sinew/mapping/hexahedron_composite_fem_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/identity_multi_mapping.hpp>
 #include <sinew/mapping/rigid_mapping.hpp>
@@ -89,6 +97,7 @@
 #include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
+#include <sinew/mass/hexahedron_composite_fem_mass.hpp>
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/mass/uniform_mass.hpp>
 #include <sinew/solver/bdf2.hpp>
@@ -102,6 +111,7 @@
 #include <sinew/solver/multigrid_linear_solver.hpp>
 #include <sinew/solver/newmark_implicit.hpp>
 #include <sinew/solver/pcg_linear_solver.hpp>
+#include <sinew/solver/precomputed_linear_solver.hpp>
 #include <sinew/solver/runge_kutta2.hpp>
 #include <sinew/solver/runge_kutta4.hpp>
 #include <sinew/solver/runge_kutta45.hpp>

@@ -16,6 +16,8 @@
 // them
 #ifdef SINEW_CCD
 #include <sinew/collision/convex_collision_model.hpp>
+#include <sinew/collision/obb_collision_model.hpp>
+#include <sinew/collision/rigid_capsule_collision_model.hpp>
 #endif
 
 namespace sinew {
@@ -31,7 +33,8 @@ using RigidLoads =
 template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
-using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>>;
+using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>,
+                              InteractionEllipsoidForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -39,7 +42,8 @@ using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, ImmersedSolid<D
                         ParticlesRepulsionForceField<D>, Particles<D>>;
 template <class D>
 using ElementForces =
-    Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, TriangleFEMForceField<D>,
+    Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
+             PyramidFEMForceField<D>, PrismFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
              EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
@@ -73,8 +77,8 @@ using PointComponents = Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMa
                                  PointSprings<D>, PointLoads<D>, PointConstraints<D>>;
 template <class D>
 using SpatialComponents =
-    Registry<PointComponents<D>, SpatialLoads<D>, ElementForces<D>, HyperelasticForces<D>, SpatialSprings<D>,
-             Fluids<D>, PatchTestMovementProjectiveConstraint<D>>;
+    Registry<PointComponents<D>, HexahedronCompositeFEMMass<D>, SpatialLoads<D>, ElementForces<D>,
+             HyperelasticForces<D>, SpatialSprings<D>, Fluids<D>, PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using RigidComponents =
     Registry<MechanicalObject<D>, UniformMass<D>, DiagonalMass<D>, RigidLoads<D>, PointConstraints<D>>;
@@ -87,7 +91,8 @@ using RigidMappings =
 template <class In, class Out>
 using PointMappings = Registry<IdentityMapping<In, Out>, SubsetMapping<In, Out>>;
 template <class In, class Out>
-using SpatialMappings = Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>>;
+using SpatialMappings =
+    Registry<PointMappings<In, Out>, BarycentricMapping<In, Out>, HexahedronCompositeFEMMapping<In, Out>>;
 
 // values on the points of a body, such as temperatures
 template <class D>
@@ -127,14 +132,16 @@ using MeasuringMappings =
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
-                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>>;
+                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>,
+                               DistanceMultiMapping<Vec3d, Vec1d>, DistanceMultiMapping<Rigid3d, Vec1d>,
+                               DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>>;
 using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =
     Registry<MultiMappings, SkinningMappings, SurfaceMappings, MeasuringMappings,
              SpatialMappings<Vec3d, Vec3d>, SpatialMappings<Vec3d, Vec3f>, SpatialMappings<Vec3f, Vec3f>,
-             SpatialMappings<Vec3f, Vec3d>, PointMappings<Vec1d, Vec1d>, PointMappings<Vec2d, Vec2d>,
-             PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
+             SpatialMappings<Vec3f, Vec3d>, BarycentricMapping<Vec3d, Rigid3d>, PointMappings<Vec1d, Vec1d>,
+             PointMappings<Vec2d, Vec2d>, PointMappings<Vec6d, Vec6d>, RigidMappings<Rigid3d, Vec3d, Vec3f>,
              RigidMappings<Rigid3f, Vec3f, Vec3d>, IdentityMapping<Rigid2d, Rigid2d>,
              RigidMapping<Rigid2d, Rigid2d>, RigidMapping<Rigid2d, Vec2d>>;
 template <template <class> class Solver>
@@ -147,7 +154,8 @@ using StandardSolvers =
              AssembledSolvers<CGLinearSolver>, CGLinearSolver<CompressedRowSparseMatrixMat3x3f>,
              MinResLinearSolver<>, AssembledSolvers<MinResLinearSolver>, ShewchukPCGLinearSolver<>,
              AssembledSolvers<ShewchukPCGLinearSolver>, AssembledSolvers<MultigridLinearSolver>,
-             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>>;
+             AssembledSolvers<SparseLDLSolver>, AssembledSolvers<CholeskySolver>,
+             AssembledSolvers<PrecomputedLinearSolver>>;
 template <class D>
 using Regions = Registry<BoxROI<D>, SphereROI<D>, PairBoxROI<D>, NearestPointROI<D>>;
 // meshes made, merged and divided, and what is known of them
@@ -172,9 +180,9 @@ using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, Sub
 using StandardEngines =
     Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, GIDMeshLoader,
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
-             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Tetra2TriangleTopologicalMapping,
-             Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping,
-             Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
+             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Hexa2PrismTopologicalMapping,
+             Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping,
+             Triangle2EdgeTopologicalMapping, Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
              SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
              ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
              BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
@@ -187,15 +195,17 @@ using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopolo
 
 template <class D>
 using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
-                                      TriangleCollisionModel<D>, SphereCollisionModel<D>>;
+                                      TriangleCollisionModel<D>, SphereCollisionModel<D>,
+                                      CapsuleCollisionModel<D>, TetrahedronCollisionModel<D>>;
 #ifdef SINEW_CCD
-using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>>;
+using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>, OBBCollisionModel<Rigid3d>,
+                                       CapsuleCollisionModel<Rigid3d>>;
 #else
 using ConvexCollisionModels = Registry<>;
 #endif
 using StandardCollision =
-    Registry<DefaultPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase, LocalMinDistance,
-             MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
+    Registry<DefaultPipeline, SubCollisionPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase,
+             RayTraceNarrowPhase, LocalMinDistance, MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
              CarvingManager, CuttingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
              ConvexCollisionModels>;
 
@@ -221,7 +231,8 @@ using StandardMultipliers =
              LagrangianConstraints>;
 
 using GridFluids = Registry<Fluid2D<Vec2d>, Fluid3D<Vec3d>, Fluid3D<Vec3f>>;
-using ChangingTopologies = Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>>;
+using ChangingTopologies =
+    Registry<TopologicalChangeProcessor, TopologyBoundingTrasher<Vec3d>, TearingEngine<Vec3d>>;
 
 /// Every component that Sinew brings, over the DataTypes that scenes use.
 struct Standard

@@ -43,4 +43,20 @@ TEST_CASE("the surface of hexahedra and tetrahedra looks outwards, whichever way
   }
 }
 
+TEST_CASE("prisms and pyramids have a surface together with what is beside them") {
+  // a cube of a prism and a pyramid with a tetrahedron, which fill the other half: edges of the cube are 1
+  const std::vector<Eigen::Vector3d> x{
+      {0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  for (const bool turned : {false, true}) {
+    std::vector<Prism> prisms{{0, 1, 2, 4, 5, 6}};
+    std::vector<Pyramid> pyramids{{0, 4, 6, 2, 3}};
+    std::vector<Tetrahedron> tetrahedra{{4, 6, 7, 3}};
+    if (turned) std::rotate(prisms[0].begin(), prisms[0].begin() + 3, prisms[0].end());
+    if (turned) std::swap(pyramids[0][1], pyramids[0][3]), std::swap(tetrahedra[0][0], tetrahedra[0][1]);
+    const auto surface = triangles_of({.tetrahedra = tetrahedra, .pyramids = pyramids, .prisms = prisms}, x);
+    CHECK(surface.size() == 12);
+    CHECK(volume_in(surface, x) == Approx(1).epsilon(1e-14));
+  }
+}
+
 }  // namespace test_surface_elements

@@ -118,6 +118,14 @@ TEST_CASE("quads become triangles, fronts are turned over, unused points left ou
       loaded(MeshGmshLoader{.filename = {folder.write("a.msh", samples::gmsh2)}, .createSubelements = true});
   CHECK(solid.triangles.size() == 4);  // one of the tetrahedron's four was there
   CHECK(solid.edges.size() == 1 + 4 + 4);
+  // the sides of its triangles, in SOFA's order
+  const auto lone =
+      loaded(MeshGmshLoader{.filename = {folder.write("lone.msh",
+                                                      "$NOD\n4\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n$ENDNOD\n"
+                                                      "$ELM\n1\n1 4 1 1 4 1 2 3 4\n$ENDELM\n")},
+                            .createSubelements = true});
+  CHECK(lone.triangles == std::vector<Triangle>{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}});
+  CHECK(lone.edges == std::vector<Edge>{{2, 1}, {1, 0}, {0, 2}, {1, 3}, {3, 0}, {3, 2}});
 }
 
 TEST_CASE("normals look outwards; points of no face have none") {
@@ -139,6 +147,21 @@ TEST_CASE("mirrored volumes stay positive") {
   CHECK(error_of([&] { check_tetrahedra<Vec3d>("x", mesh.tetrahedra, mesh.position); }) == error_of([&] {
           check_tetrahedra<Vec3d>("x", samples::mesh().tetrahedra, samples::mesh().positions);
         }));
+}
+
+TEST_CASE("prisms and pyramids are loaded, turned where they are mirrored, and have sides") {
+  const files::TempFolder folder;
+  const std::string path =
+      folder.write("a.msh",
+                   "$NOD\n7\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n7 2 2 0.5\n"
+                   "$ENDNOD\n$ELM\n2\n1 6 1 1 6 1 2 3 4 5 6\n2 7 1 1 5 2 3 6 5 7\n$ENDELM");
+  const auto mesh =
+      loaded(MeshGmshLoader{.filename = {path}, .scale3d = {1, 1, -1}, .createSubelements = true});
+  CHECK(mesh.prisms == std::vector<Prism>{{3, 4, 5, 0, 1, 2}});
+  CHECK(mesh.pyramids == std::vector<Pyramid>{{1, 4, 5, 2, 6}});
+  CHECK(mesh.quads.size() == 3);  // one of them is of both
+  CHECK(mesh.triangles.size() == 2 + 4);
+  CHECK(mesh.edges.size() == 9 + 4);
 }
 
 TEST_CASE("loaders say what is wrong, and keep what they had") {

@@ -2,6 +2,7 @@
 #include <sinew/engine/mesh2point_topological_mapping.hpp>
 #include <sinew/engine/simple_tesselated_tetra_topological_mapping.hpp>
 #include <sinew/engine/topological_mapping.hpp>
+#include <sinew/topology/border.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
 #include "catch.hpp"
@@ -44,6 +45,24 @@ TEST_CASE("hexahedra become tetrahedra, their surface triangles; both enclose th
   surface.none = true;
   surface.update("t");
   CHECK(surface.converted.empty());
+}
+
+TEST_CASE("hexahedra become prisms that fill them, match those beside them, and lie as SOFA's") {
+  const Mesh mesh = grid();
+  Hexa2PrismTopologicalMapping halves{
+      .position = mesh.positions, .elements = mesh.hexahedra, .flipNormals = true};
+  halves.update("t");
+  REQUIRE(halves.converted.size() == 2 * mesh.hexahedra.size());
+  auto const& h = mesh.hexahedra[0];
+  CHECK(halves.converted[0] == Prism{h[0], h[5], h[1], h[3], h[6], h[2]});
+  CHECK(halves.converted[1] == Prism{h[0], h[4], h[5], h[3], h[7], h[6]});
+  const Border border = border_of({}, {}, {}, halves.converted);
+  // two sides of the grid are of triangles, the others of quads
+  CHECK(border.triangles.size() == 2 * 2 * std::size_t((nx - 1) * (nz - 1)));
+  CHECK(border.quads.size() == 2 * std::size_t((nx - 1) * (ny - 1) + (ny - 1) * (nz - 1)));
+  std::vector<Triangle> surface = border.triangles;
+  for (auto const& q : border.quads) surface.insert(surface.end(), {{q[0], q[1], q[2]}, {q[0], q[2], q[3]}});
+  CHECK(volume_inside(mesh.positions, surface) == Approx(2 * 3 * 4));
 }
 
 TEST_CASE("the surface of hexahedra in quads, and these in triangles") {

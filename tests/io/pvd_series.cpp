@@ -43,6 +43,41 @@ TEST_CASE("PvdSeries is complete after each call") {
   }
 }
 
+TEST_CASE("pieces of several processes are named by one file") {
+  const files::TempFolder folder;
+  const Mesh mesh = samples::mesh();
+  io::PvdSeries first(folder / "a"), second(folder / "a");
+  for (int step = 0; step < 2; ++step) {
+    second.addPiece(0.5 * step, mesh, {{"rank", 1, {1, 1, 1, 1, 1}}}, {1, 2});
+    first.addPiece(0.5 * step, mesh, {{"rank", 1, {0, 0, 0, 0, 0}}}, {0, 2});
+  }
+  CHECK(listed(first.path()) ==
+        std::vector<std::pair<double, std::string>>{{0, "a_0000.pvtu"}, {0.5, "a_0001.pvtu"}});
+  CHECK(folder.count() == 7);  // a file for each piece, one that names them, twice, and the list
+  pugi::xml_document document;
+  REQUIRE(document.load_file((folder / "a_0001.pvtu").c_str()));
+  CHECK(document.child("VTKFile").attribute("type").value() == std::string("PUnstructuredGrid"));
+  const auto grid = document.child("VTKFile").child("PUnstructuredGrid");
+  CHECK(grid.child("PPointData").child("PDataArray").attribute("Name").value() == std::string("rank"));
+  CHECK(grid.child("PPoints").child("PDataArray").attribute("NumberOfComponents").as_int() == 3);
+  std::vector<std::string> pieces;
+  for (auto const piece : grid.children("Piece")) pieces.push_back(piece.attribute("Source").value());
+  CHECK(pieces == std::vector<std::string>{"a_0001_0.vtu", "a_0001_1.vtu"});
+  for (auto const& piece : pieces) CHECK(io::read_vtu(folder / piece) == mesh);
+  check_says(error_of([&] {
+               first.addPiece(std::numeric_limits<double>::infinity(), mesh, {}, {0, 2});
+             }),
+             first.path(),
+             "time inf");
+  CHECK(first.size() == 2);
+  // a piece that has points of elements of others, and none of its own
+  Mesh points;
+  points.positions = mesh.positions;
+  io::PvdSeries none(folder / "b");
+  none.addPiece(0, points, {}, {0, 1, false});
+  CHECK(io::read_file(folder / "b_0000_0.vtu").find("NumberOfCells=\"0\"") != std::string::npos);
+}
+
 TEST_CASE("PvdSeries stays as it was when a state cannot be added") {
   const files::TempFolder folder;
   io::PvdSeries series(folder / "a.pvd");

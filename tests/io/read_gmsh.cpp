@@ -38,6 +38,15 @@ TEST_CASE("read_gmsh reads hexahedra and keeps unused nodes") {
   CHECK(mesh.hexahedra == std::vector<Hexahedron>{{0, 1, 2, 3, 4, 5, 6, 7}});
 }
 
+TEST_CASE("read_gmsh reads prisms and pyramids") {
+  const Mesh mesh =
+      io::parse_gmsh("f",
+                     "$NOD\n7\n1 0 0 0\n2 1 0 0\n3 0 1 0\n4 0 0 1\n5 1 0 1\n6 0 1 1\n7 2 2 0.5\n"
+                     "$ENDNOD\n$ELM\n2\n1 6 1 1 6 1 2 3 4 5 6\n2 7 1 1 5 2 3 6 5 7\n$ENDELM");
+  CHECK(mesh.prisms == std::vector<Prism>{{0, 1, 2, 3, 4, 5}});
+  CHECK(mesh.pyramids == std::vector<Pyramid>{{1, 2, 5, 4, 6}});
+}
+
 TEST_CASE("read_gmsh says what it does not read") {
   check_says(error_with(samples::gmsh2, "2.2 0", "2.2 1"), "f.msh:2", "binary");
   check_says(error_with(samples::gmsh4, "4.1 0", "4.1 1"), "f.msh:2", "export it as ASCII");
@@ -48,7 +57,7 @@ TEST_CASE("read_gmsh says what it does not read") {
              "f.msh:20",
              "second or higher order");
   check_says(error_with(samples::gmsh4, "3 1 4 1", "3 1 11 1"), "f.msh:35", "type 11");
-  check_says(error_with(samples::gmsh1, "9 4 1 1 4", "9 6 1 1 6"), "f.msh:15", "prisms");
+  check_says(error_with(samples::gmsh1, "9 4 1 1 4", "9 6 1 1 4"), "f.msh:15", "type 6 have 6 nodes");
   check_says(
       error_of([] { io::parse_gmsh("f.msh", "solid thing\n"); }), "f.msh:1", "with which a Gmsh file begins");
 }

@@ -70,13 +70,19 @@ TEST_CASE("read_vtk brings VTK's cells into the node order of the mesh") {
   CHECK(one_cell(8, "0 1 2 3").quads == std::vector<Quad>{{0, 1, 3, 2}});
   CHECK(one_cell(11, "0 1 2 3 4 5 6 7").hexahedra == std::vector<Hexahedron>{{0, 1, 3, 2, 4, 5, 7, 6}});
   CHECK(one_cell(12, "0 1 3 2 4 5 7 6").hexahedra == std::vector<Hexahedron>{{0, 1, 3, 2, 4, 5, 7, 6}});
+  // either way round
+  CHECK(one_cell(13, "0 1 2 4 5 6").prisms == std::vector<Prism>{{0, 1, 2, 4, 5, 6}});
+  CHECK(one_cell(13, "4 5 6 0 1 2").prisms == std::vector<Prism>{{0, 1, 2, 4, 5, 6}});
+  CHECK(one_cell(14, "0 1 3 2 8").pyramids == std::vector<Pyramid>{{0, 1, 3, 2, 8}});
   CHECK(one_cell(4, "8 1 2").edges == std::vector<Edge>{{8, 1}, {1, 2}});
   CHECK(one_cell(6, "0 1 2 3").triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
   CHECK(one_cell(7, "0 1 3 2").quads == std::vector<Quad>{{0, 1, 3, 2}});
   CHECK(one_cell(2, "0 1 2").triangles.empty());
   check_says(error_of([] { one_cell(24, "0 1 2 3"); }), "f:9", "cell 0 is of VTK's cell type 24");
   check_says(error_of([] { one_cell(-1, "0 1 2 3"); }), "f:9", "cell type -1");
-  check_says(error_of([] { one_cell(13, "0 1 2 3 4 5"); }), "f:9", "wedge");
+  check_says(
+      error_of([] { one_cell(13, "0 1 2 3 4"); }), "f:9", "has 5 points, but VTK's cell type 13 has 6");
+  check_says(error_of([] { one_cell(14, "0 1 2 3 9"); }), "f:8", "point 9 is not among the 9 points");
   check_says(error_of([] { one_cell(10, "0 1 2"); }), "f:9", "has 3 points, but VTK's cell type 10 has 4");
 }
 

@@ -30,6 +30,7 @@ TEST_CASE("write_vtu writes what read_vtu reads, bit by bit") {
   mesh.positions[1] = {1.7976931348623157e308, -2.2250738585072014e-308, 0.1};
   mesh.positions.insert(mesh.positions.end(), {{2, 0, 0}, {3, 0, 0}, {2, 1, 0}});
   mesh.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}, {7, 6, 5, 4, 3, 2, 1, 0}};
+  mesh.pyramids = {{0, 3, 2, 4, 5}};
   mesh.triangles.push_back({7, 5, 6});
   io::write_vtu(folder / "a.vtu", mesh);
   const Mesh back = io::read_vtu(folder / "a.vtu");
@@ -40,6 +41,15 @@ TEST_CASE("write_vtu writes what read_vtu reads, bit by bit") {
   io::write_vtu(folder / "a.vtu", back);
   CHECK(io::read_file(folder / "a.vtu") == bytes);
   CHECK(folder.count() == 1);
+}
+
+TEST_CASE("write_vtu writes prisms as VTK has them, and read_vtu turns them back") {
+  const files::TempFolder folder;
+  Mesh mesh;
+  mesh.positions = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  mesh.prisms = {{0, 1, 2, 3, 4, 5}};
+  io::write_vtu(folder / "a.vtu", mesh);
+  CHECK(io::read_vtu(folder / "a.vtu") == mesh);
 }
 
 TEST_CASE("write_vtu writes data at points, bit by bit") {

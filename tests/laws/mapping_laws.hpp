@@ -7,6 +7,8 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/linalg/block_matrix.hpp>
 
+#include <array>
+
 namespace laws {
 
 using namespace sinew;
@@ -27,7 +29,8 @@ struct MappingSuite {
   void run() {
     INFO(component_name<M>());
     sample::for_each_variant<Component>(random, [&](Component const& sampled) {
-      M mapping{sampled};
+      M mapping{};
+      static_cast<Component&>(mapping) = sampled;
       typename Out::VecCoord child;
       for (std::size_t i = 0; i < sample::child_points(sampled); ++i)
         child.push_back(sample::coord<Out>(random, 1.5));
@@ -164,44 +167,165 @@ struct MappingSuite {
   }
 };
 
-/// A mapping with several parents, three of them, looked at as one from all of them one behind the other.
-template <class M>
-struct Joined : M {
-  std::size_t each = 0;
+/// What of a joint mapping is the same whatever its parents are: the suite sees one parent, whose points are
+/// those of all parents one behind the other, and `Self` says where they are (forEachPart).
+template <class Self, class M, class One>
+struct OfOneParent : M {
+  using In = One;
+  using Out = typename M::Out;
 
-  void init(InitContext<typename M::In> const& parent, InitContext<typename M::Out> const& child,
-            typename M::Out::VecCoord& positions) {
-    each = parent.rest.size() / 3;
-    std::vector<typename M::In::VecCoord> rest(3);
-    std::vector<InitContext<typename M::In>> parents;
-    for (std::size_t k = 0; k < 3; ++k) rest[k] = part(parent.rest, k);
-    for (std::size_t k = 0; k < 3; ++k) parents.push_back({"parent", rest[k], {}});
-    M::init(parents, child, positions);
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
+    self().forEachPart([&](auto& part, auto const& cut) { part.apply(out, cut.coords(in)); });
   }
-  void apply(typename M::Out::VecCoord& out, typename M::In::VecCoord const& in) {
-    for (std::size_t k = 0; k < 3; ++k) this->parts[k].apply(out, part(in, k));
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) {
+    self().forEachPart([&](auto& part, auto const& cut) { part.applyJ(out, cut.derivs(in)); });
   }
-  void applyJ(typename M::Out::VecDeriv& out, typename M::In::VecDeriv const& in) {
-    for (std::size_t k = 0; k < 3; ++k) this->parts[k].applyJ(out, part(in, k));
-  }
-  void applyJT(typename M::In::VecDeriv& in, typename M::Out::VecDeriv const& out) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      auto own = part(in, k);
-      this->parts[k].applyJT(own, out);
-      std::copy(own.begin(), own.end(), in.begin() + std::ptrdiff_t(k * each));
-    }
+  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) {
+    self().forEachPart([&](auto& part, auto const& cut) {
+      auto own = cut.derivs(in);
+      part.applyJT(own, out);
+      cut.giveBack(in, own);
+    });
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    for (std::size_t k = 0; k < 3; ++k)
-      this->parts[k].forEachJacobianBlock(point,
-                                          [&](int above, auto const& j) { f(int(k * each) + above, j); });
+    const_cast<OfOneParent*>(this)->self().forEachPart([&](auto& part, auto const& cut) {
+      part.forEachJacobianBlock(point,
+                                [&](int above, auto const& j) { f(cut.first + above, cut.widened(j)); });
+    });
+  }
+  void updateK(typename Out::VecDeriv const& f)
+  requires(GathersParents<PartOf<M>>)
+  {
+    self().forEachPart([&](auto& part, auto const&) { part.updateK(f); });
+  }
+  void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const
+  requires(GathersParents<PartOf<M>>)
+  {
+    auto& own = const_cast<OfOneParent*>(this)->self();
+    own.forEachPart([&](auto& part, auto const& cut) { part.gather(cut.derivs(dx)); });
+    own.forEachPart([&](auto& part, auto const& cut) {
+      auto sum = cut.derivs(df);
+      part.addKx(sum, cut.derivs(dx), k);
+      cut.giveBack(df, sum);
+    });
+  }
+  template <class Sink>
+  void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
+    auto& own = const_cast<OfOneParent*>(this)->self();
+    M const& mapping = *this;
+    std::size_t a = 0;
+    own.forEachPart([&](auto&, auto const& rows) {
+      std::size_t b = 0;
+      own.forEachPart([&](auto&, auto const& columns) {
+        using Block = Between<Sink, std::decay_t<decltype(rows)>, std::decay_t<decltype(columns)>>;
+        mapping.addToMatrix(p, a, b, Block{sink, rows, columns});
+        ++b;
+      });
+      ++a;
+    });
   }
 
  private:
-  template <class V>
-  V part(V const& all, std::size_t k) const {
-    return V(all.begin() + std::ptrdiff_t(k * each), all.begin() + std::ptrdiff_t((k + 1) * each));
+  Self& self() { return static_cast<Self&>(*this); }
+  template <class Sink, class Rows, class Columns>
+  struct Between {
+    Sink const& sink;
+    Rows const& rows;
+    Columns const& columns;
+    template <int, int, class K>
+    void add(int i, int j, K const& k) const {
+      Mat<typename In::Real, In::size> block = Mat<typename In::Real, In::size>::Zero();
+      block.template topLeftCorner<K::RowsAtCompileTime, K::ColsAtCompileTime>() = k;
+      sink.add(rows.first + i, columns.first + j, block);
+    }
+  };
+};
+
+/// The points of one parent among those of all; over D, where those of all are over In, or their centres are
+/// these points.
+template <class In, class D>
+struct Cut {
+  int first, count;
+
+  typename D::VecCoord coords(typename In::VecCoord const& all) const {
+    typename D::VecCoord own;
+    for (int i = first; i < first + count; ++i)
+      if constexpr (std::is_same_v<In, D>)
+        own.push_back(all[std::size_t(i)]);
+      else
+        own.push_back(In::center(all[std::size_t(i)]));
+    return own;
+  }
+  typename D::VecDeriv derivs(typename In::VecDeriv const& all) const {
+    typename D::VecDeriv own;
+    for (int i = first; i < first + count; ++i) own.push_back(all[std::size_t(i)].template head<D::size>());
+    return own;
+  }
+  void giveBack(typename In::VecDeriv& all, typename D::VecDeriv const& own) const {
+    for (int i = 0; i < count; ++i)
+      all[std::size_t(first + i)].template head<D::size>() = own[std::size_t(i)];
+  }
+  template <class J>
+  Mat<typename J::Scalar, J::RowsAtCompileTime, In::size> widened(J const& j) const {
+    using Wide = Mat<typename J::Scalar, J::RowsAtCompileTime, In::size>;
+    Wide wide = Wide::Zero();
+    wide.template leftCols<D::size>() = j;
+    return wide;
+  }
+};
+
+/// A mapping with several parents, three of them.
+template <class M>
+struct Joined : OfOneParent<Joined<M>, M, typename M::In> {
+  using One = typename M::In;
+  int each = 0;
+
+  void init(InitContext<One> const& parent, InitContext<typename M::Out> const& child,
+            typename M::Out::VecCoord& positions) {
+    each = int(parent.rest.size()) / 3;
+    std::vector<typename One::VecCoord> rest;
+    std::vector<InitContext<One>> contexts;
+    for (int k = 0; k < 3; ++k) rest.push_back(Cut<One, One>{k * each, each}.coords(parent.rest));
+    for (auto const& own : rest) contexts.push_back({"parent", own, {}});
+    M::init(contexts, context(child), positions);
+  }
+  template <class F>
+  void forEachPart(F&& f) {
+    for (int k = 0; k < 3; ++k) {
+      auto&& part = this->part(std::size_t(k));
+      f(part, Cut<One, One>{k * each, each});
+    }
+  }
+
+ private:
+  static auto context(InitContext<typename M::Out> child) {
+    if constexpr (over_entries<M>) child.topology.edges = sample_edges;
+    return child;
+  }
+  static constexpr std::array<Edge, 6> sample_edges{Edge{0, 1}, {1, 2}, {0, 3}, {4, 1}, {5, 6}, {2, 6}};
+};
+
+/// One with a parent over points, of which 18 are the centres, and one over rigid bodies.
+template <class M>
+struct JoinedKinds : OfOneParent<JoinedKinds<M>, M, typename M::In2> {
+  using One = typename M::In2;
+  static constexpr int points = 18;
+  int bodies = 0;
+
+  void init(InitContext<One> const& parent, InitContext<typename M::Out> const& child,
+            typename M::Out::VecCoord& positions) {
+    bodies = int(parent.rest.size()) - points;
+    const auto first = Cut<One, typename M::In>{0, points}.coords(parent.rest);
+    const auto second = Cut<One, One>{points, bodies}.coords(parent.rest);
+    M::init({"points", first, {}}, {"frames", second, {}}, child, positions);
+  }
+  template <class F>
+  void forEachPart(F&& f) {
+    auto ofPoints = this->part(ParentNumber<0>{});
+    f(ofPoints, Cut<One, typename M::In>{0, points});
+    auto ofBodies = this->part(ParentNumber<1>{});
+    f(ofBodies, Cut<One, One>{points, bodies});
   }
 };
 
@@ -213,7 +337,9 @@ void check_mappings() {
     if constexpr (HasRole<C, role::Mapping> && !MakesFaces<C>)  // a surface has no velocities
       if constexpr (C::In::rigid == Rigid) {
         ++found;
-        if constexpr (HasParents<C>)
+        if constexpr (HasTwoKindsOfParents<C>)
+          MappingSuite<JoinedKinds<C>, C>{}.run();
+        else if constexpr (HasParents<C>)
           MappingSuite<Joined<C>, C>{}.run();
         else
           MappingSuite<C>{}.run();

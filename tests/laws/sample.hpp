@@ -22,8 +22,8 @@ struct Random {
   int index(int n) { return int(engine() % unsigned(n)); }
 };
 
-/// Points of a 3x3x3 grid, shaken, with its lines, a hexahedron and five tetrahedra a cell, and the surface
-/// of both.
+/// Points of a 3x3x3 grid, shaken, with its lines, a hexahedron, five tetrahedra, three pyramids and two
+/// prisms a cell, and the surface of the first two.
 struct Body {
   static constexpr int n = 27;
   std::vector<Edge> edges;
@@ -31,6 +31,8 @@ struct Body {
   std::vector<Quad> quads;
   std::vector<Tetrahedron> tetrahedra;
   std::vector<Hexahedron> hexahedra;
+  std::vector<Pyramid> pyramids;
+  std::vector<Prism> prisms;
   std::vector<Eigen::Vector3d> points;
 
   explicit Body(Random& random) {
@@ -57,6 +59,11 @@ struct Body {
       }
       hexahedra.push_back(
           {corner(0), corner(1), corner(3), corner(2), corner(4), corner(5), corner(7), corner(6)});
+      pyramids.push_back({corner(0), corner(1), corner(3), corner(2), corner(7)});
+      pyramids.push_back({corner(0), corner(4), corner(5), corner(1), corner(7)});
+      pyramids.push_back({corner(0), corner(2), corner(6), corner(4), corner(7)});
+      prisms.push_back({corner(0), corner(1), corner(3), corner(4), corner(5), corner(7)});
+      prisms.push_back({corner(0), corner(3), corner(2), corner(4), corner(7), corner(6)});
       for (int axis = 0; axis < 3; ++axis)
         for (int high = 0; high < 2; ++high) {
           if ((axis == 0 ? x : axis == 1 ? y : z) != high) continue;  // outer faces, seen from outside
@@ -74,6 +81,8 @@ struct Body {
             .quads = quads,
             .tetrahedra = tetrahedra,
             .hexahedra = hexahedra,
+            .pyramids = pyramids,
+            .prisms = prisms,
             .grid = {3, 3, 3}};
   }
 };

@@ -312,6 +312,51 @@ TEST_CASE("elements of the highest dimension carry, both kinds of it") {
   CHECK(surface.carriers[1].points[1] == 8);
 }
 
+TEST_CASE("prisms and pyramids carry points inside and outside, and move them affinely along") {
+  const auto cells = grid({3, 3, 3});
+  Points parent = shaken(cells.position, 0.1);
+  std::vector<Prism> prisms;
+  std::vector<Pyramid> pyramids;  // six of each cell, around its middle
+  for (Hexahedron const& h : cells.hexahedra) {
+    prisms.push_back({h[0], h[5], h[1], h[3], h[6], h[2]});
+    prisms.push_back({h[0], h[4], h[5], h[3], h[7], h[6]});
+    for (auto const& f : hexahedronFaces)
+      pyramids.push_back({h[f[0]], h[f[3]], h[f[2]], h[f[1]], Index(parent.size())});
+    parent.push_back((cells.position[std::size_t(h[0])] + cells.position[std::size_t(h[6])]) / 2);
+  }
+  for (TopologyView const& view : {TopologyView{.prisms = prisms}, TopologyView{.pyramids = pyramids}}) {
+    Random random;
+    Points child = parent;  // points of the elements, too: apexes, and edges at which corners coincide
+    for (int i = 0; i < 200; ++i) child.push_back(random.point(-1, 3));
+    const Points given = child;
+    const Barycentric mapping = mapped(parent, view, child);
+    double worst = 0, negative = 0;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      worst = std::max(worst, (child[i] - given[i]).norm());
+      if ((given[i].array() > 0.15).all() && (given[i].array() < 1.85).all())
+        for (auto const* list : {&mapping.carriers, &mapping.others})
+          for (const double w : (*list)[i].weights) negative = std::min(negative, w);
+    }
+    CHECK(worst < 1e-10);
+    CHECK(negative > -1e-6);  // inside an element
+    check_affine(mapping, parent, child);
+    check_virtual_work(mapping, parent.size(), child.size());
+  }
+  // the weights are the shape functions, here of the middle of the prism and of a place above the base
+  const Points unit{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}};
+  const std::vector<Prism> one{{0, 1, 2, 3, 4, 5}};
+  Points at{{1. / 3, 1. / 3, 0.25}};
+  const Barycentric prism = mapped(unit, {.prisms = one}, at);
+  CHECK(prism.carriers[0].weights[0] == Approx(0.25));
+  CHECK(prism.others[0].weights[0] == Approx(0.25 / 3));
+  const Points tent{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, 1}};
+  const std::vector<Pyramid> two{{0, 1, 2, 3, 4}};
+  Points above{{0, 0, 0.6}};
+  const Barycentric pyramid = mapped(tent, {.pyramids = two}, above);
+  for (const double w : pyramid.carriers[0].weights) CHECK(w == Approx(0.1));
+  CHECK(pyramid.others[0].weights[0] == Approx(0.6));
+}
+
 TEST_CASE("a child that starts elsewhere is carried by where it rests, if it says so") {
   const Points parent = grid({3, 3, 3}).position;
   const auto cells = grid({3, 3, 3});

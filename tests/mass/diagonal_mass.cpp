@@ -59,6 +59,19 @@ TEST_CASE("DiagonalMass of a distorted hexahedron integrates density times shape
   }
 }
 
+TEST_CASE("DiagonalMass of prisms and pyramids: a sixth to each corner; a quarter to the apex") {
+  const std::vector<Eigen::Vector3d> corners{
+      {0, 0, 0}, {2, 0, 0}, {0.5, 1.5, 0}, {0, 0.3, 4}, {2, 0.3, 4}, {0.5, 1.8, 4}};
+  const std::vector<Prism> prisms{{0, 1, 2, 3, 4, 5}};
+  for (const double m : masses({.massDensity = 2}, corners, {.prisms = prisms}))
+    CHECK(m == Approx(2 * 6 / 6.).epsilon(1e-13));
+  const std::vector<Eigen::Vector3d> tent{{0, 0, 0}, {2, 0, 0}, {2.5, 1, 0}, {0.5, 1, 0}, {3, 4, 3}};
+  const std::vector<Pyramid> pyramids{{0, 1, 2, 3, 4}};
+  const auto m = masses({.massDensity = 8}, tent, {.pyramids = pyramids});
+  for (std::size_t i = 0; i < 4; ++i) CHECK(m[i] == Approx(16 * 3 / 16.).epsilon(1e-13));
+  CHECK(m[4] == Approx(16 / 4.).epsilon(1e-13));
+}
+
 TEST_CASE("DiagonalMass of sheets and strings") {
   const auto sheet = box({3, 2, 1}, {2, 3, 0});  // its quads, and not its triangles again
   const auto m = masses({.massDensity = 2}, sheet.position, sheet.view());

@@ -146,6 +146,52 @@ TEST_CASE("elements of one kind may have the mass alone") {
   CHECK_THROWS_AS(made(volume, {.elements = MassElements::edges}), Error);
 }
 
+// Of a prism A h: rho A h (1 + delta_ab)(1 + delta_tu)/72 for corners a, b of the triangle and its sides t,
+// u. Of a pyramid with a parallelogram as base: rho V times 1/15, 1/30 along a side of the base, 1/60 across
+// it, 3/80 with the apex, and 1/10 of that.
+TEST_CASE("prisms and pyramids have the masses of their shape functions") {
+  const double rho = 3;
+  auto matrix = [&](Box const& b, TopologyView const& view, MassElements kind) {
+    MeshMatrixMass<Vec3d> mass{.massDensity = {rho}, .elements = kind};
+    mass.init(InitContext<Vec3d>{"element", b.x, view});
+    const auto n = Eigen::Index(b.x.size());
+    Eigen::MatrixXd m(n, n);
+    for (Eigen::Index j = 0; j < n; ++j) {
+      Points unit(b.x.size(), Eigen::Vector3d::Zero()), product = unit;
+      unit[std::size_t(j)][0] = 1;
+      mass.addMDx(product, unit, unit, 1);
+      for (Eigen::Index i = 0; i < n; ++i) m(i, j) = product[std::size_t(i)][0];
+    }
+    return m;
+  };
+  Box prism;
+  prism.x = {{0, 0, 0}, {2, 0, 0}, {0.5, 1.5, 0}, {0, 0.3, 4}, {2, 0.3, 4}, {0.5, 1.8, 4}};
+  const std::vector<Prism> prisms{{0, 1, 2, 3, 4, 5}};
+  for (const MassElements kind : {MassElements::highest, MassElements::prisms}) {
+    const Eigen::MatrixXd m = matrix(prism, {.prisms = prisms}, kind);
+    for (int i = 0; i < 6; ++i)
+      for (int j = 0; j < 6; ++j) {
+        const int same = (i % 3 == j % 3 ? 2 : 1) * (i / 3 == j / 3 ? 2 : 1);
+        CHECK(m(i, j) == Approx(rho * 1.5 * 4 * same / 72).epsilon(1e-13));
+      }
+  }
+  Box pyramid;
+  pyramid.x = {{0, 0, 0}, {2, 0, 0}, {2.5, 1, 0}, {0.5, 1, 0}, {3, 4, 3}};
+  const std::vector<Pyramid> pyramids{{0, 1, 2, 3, 4}};
+  const double whole = rho * 2;  // 2 x 1 x 3 / 3
+  for (const MassElements kind : {MassElements::highest, MassElements::pyramids}) {
+    const Eigen::MatrixXd m = matrix(pyramid, {.pyramids = pyramids}, kind);
+    for (int i = 0; i < 5; ++i)
+      for (int j = 0; j < 5; ++j) {
+        const int around = std::abs(i - j) % 2 == 1 ? 30 : i == j ? 15 : 60;
+        const double part = i == 4 && j == 4 ? 0.1 : i == 4 || j == 4 ? 3. / 80 : 1. / around;
+        CHECK(m(i, j) == Approx(whole * part).epsilon(1e-13));
+      }
+  }
+  CHECK_THROWS_WITH(matrix(prism, {.prisms = prisms}, MassElements::pyramids),
+                    Catch::Contains("the mass is that of pyramids"));
+}
+
 TEST_CASE("products of linear fields are integrated exactly") {
   for (const int kind : kinds) {
     INFO("kind " << kind);

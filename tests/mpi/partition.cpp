@@ -4,6 +4,7 @@
 #include <sinew/mpi/partition.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
+#include <algorithm>
 #include <set>
 #include <string>
 
@@ -43,6 +44,37 @@ TEST_CASE("each point has one rank, and a rank has all elements at its points, t
         if (parts[std::size_t(i)] == rank) CHECK(elements.contains(Index(e)));
   }
   CHECK(all == mesh.positions.size());
+}
+
+TEST_CASE(
+    "what joins points counts as an element, and points that all ranks have are ghosts or own on each") {
+  const int size = GENERATE(2, 3, 4);
+  const Mesh mesh = regular_grid_tetrahedra(7, 3, 3, {0, 0, 0}, {3, 1, 1});
+  const std::size_t n = mesh.positions.size();
+  const TopologyView view{.tetrahedra = mesh.tetrahedra};
+  const mpi::JoinedPoints joined{{0, Index(n) - 1}, {2, 30, 50, 60}};
+  const std::vector<Index> everywhere{6, 7, 40};
+  const auto parts = mpi::parts_of_points("here", n, {&view, 1}, size, joined);
+  std::vector<mpi::Part> all;
+  for (int rank = 0; rank < size; ++rank)
+    all.push_back(mpi::part_of("here", parts, {&view, 1}, rank, size, joined, everywhere));
+  for (int rank = 0; rank < size; ++rank) {
+    mpi::Part const& part = all[std::size_t(rank)];
+    const std::set<Index> here(part.points.kept.begin(), part.points.kept.end());
+    for (const Index i : everywhere) CHECK(here.contains(i));
+    for (auto const& points : joined)
+      if (std::any_of(points.begin(), points.end(), [&](Index i) { return parts[std::size_t(i)] == rank; }))
+        for (const Index i : points) CHECK(here.contains(i));
+    // what is sent is what the others expect, in their order
+    for (auto const& [to, sent] : part.sent) {
+      mpi::Part const& other = all[std::size_t(to)];
+      std::vector<int> expected;
+      for (std::size_t g = 0; g < other.ghostOwner.size(); ++g)
+        if (other.ghostOwner[g] == rank) expected.push_back(other.ghostNumber[g]);
+      CHECK(sent == expected);
+      CHECK(other.sent.contains(rank));
+    }
+  }
 }
 
 TEST_CASE("points that are too few are not shared out") {

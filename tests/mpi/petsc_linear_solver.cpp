@@ -102,11 +102,13 @@ TEST_CASE("what PETSc does not know, or does not solve, is said in a sentence") 
   std::string said = error_of([&] { first({.solver = "gmress"}); });
   INFO(said);
   CHECK(says(said, {"/root: PetscLinearSolver", "solver is 'gmress'", "did you mean 'gmres'", "fgmres"}));
-  said = error_of([&] { first({.preconditioner = "multigrid"}); });
+  said = error_of([&] { first({.preconditioner = "multigrids"}); });
   INFO(said);
-  CHECK(says(said, {"preconditioner is 'multigrid'", "no preconditioner of that name", "gamg"}));
+  CHECK(says(said, {"preconditioner is 'multigrids'", "no preconditioner of that name", "gamg"}));
   said = error_of([&] { first({.matrix = "dense"}); });
-  CHECK(says(said, {"matrix is 'dense'", "baij or aij"}));
+  CHECK(says(said, {"matrix is 'dense'", "baij, aij or free"}));
+  said = error_of([&] { first({.preconditioner = "gamg", .matrix = "free"}); });
+  CHECK(says(said, {"preconditioner is 'gamg'", "matrix is free", "take none"}));
   said = error_of([&] { first({.iterations = 3}); });
   INFO(said);
   CHECK(says(said, {"cg with pbjacobi has not converged in 3 iterations", "more iterations"}));

@@ -82,12 +82,12 @@ TEST_CASE("scenes that cannot be shared out are refused before the run") {
   };
   std::string error = said(bar(EulerImplicitSolver{},
                                CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
-                               PlaneForceField<Vec3d>{.normal = {0, 1, 0}, .d = -5}));
+                               DiagonalVelocityDampingForceField<Vec3d>{}));
   INFO(error);
   CHECK(says(error,
              {"not distributed yet",
               "/root: CGLinearSolver<CompressedRowSparseMatrixMat3x3d>",
-              "/root: PlaneForceField<Vec3d>"}));
+              "/root: DiagonalVelocityDampingForceField<Vec3d>"}));
   CHECK(error.find("TetrahedronFEM") == std::string::npos);
 
   if (world.size > 1) {

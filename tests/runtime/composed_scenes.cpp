@@ -57,6 +57,62 @@ TEST_CASE("a force with a mass is a force and a mass of the same hexahedra") {
     CHECK(v[2] == Approx(-1).epsilon(1e-3));
 }
 
+TEST_CASE("hexahedra of finer cells are a force and a mass, and say to a mapping what it shows") {
+  const std::string grid =
+      "<EulerImplicitSolver/><CGLinearSolver iterations='500' tolerance='1e-12' threshold='0'/>"
+      "<SparseGridTopology n='3 3 3' nbVirtualFinerLevels='1' "
+      "position='0 0 0 1 0 0 0 1 0 0 0 1' triangles='0 2 1 0 1 3 1 2 3 2 0 3'/><MechanicalObject/>";
+  const std::string points =
+      "<Node name='points'><MechanicalObject position='0.1 0.2 0.3'/><HexahedronCompositeFEMMapping "
+      "finestToCoarse='0'/></Node>";
+  auto scene = read(grid +
+                    "<HexahedronCompositeFEMForceFieldAndMass name='F' youngModulus='300' poissonRatio='0.2' "
+                    "density='3' lumpedMass='1' nbVirtualFinerLevels='1' method='polar' drawType='0' "
+                    "useRamification='1' homogenizationMethod='0' completeInterpolation='1' "
+                    "finestToCoarse='1'/>" +
+                    points);
+  using Force = HexahedronCompositeFEMForceField<Vec3d>;
+  using Mass = HexahedronCompositeFEMMass<Vec3d>;
+  using Mapping = HexahedronCompositeFEMMapping<Vec3d, Vec3d>;
+  {
+    auto const& force = *scene.root.get<Force>();
+    auto const& mass = *scene.root.get<Mass>();
+    auto const& mapping = *scene.root.children()[0]->get<Mapping>();
+    CHECK(force.youngModulus == std::vector<double>{300});
+    CHECK(force.method == HexahedronMethod::polar);
+    CHECK(mass.massDensity == 3);
+    CHECK(mass.lumping);
+    CHECK(mapping.method == HexahedronMethod::polar);
+    CHECK(mapping.completeInterpolation);
+    CHECK(force.finestToCoarse);
+    CHECK(mass.finestToCoarse);
+    CHECK(!mapping.finestToCoarse);  // it says so itself
+    for (double const nu : {force.poissonRatio, mass.poissonRatio, mapping.poissonRatio}) CHECK(nu == 0.2);
+    for (auto const levels :
+         {force.nbVirtualFinerLevels, mass.nbVirtualFinerLevels, mapping.nbVirtualFinerLevels})
+      CHECK(levels == 1);
+    for (auto const way : {force.interpolation, mass.interpolation, mapping.interpolation})
+      CHECK(way == CellInterpolation::condensed);
+  }
+  Simulation sim{std::move(scene.root)};
+  sim.init();
+  sim.animate(0.1);  // falls as a whole
+  for (auto const& v : sim.root().children()[0]->get<MechanicalObject<Vec3d>>()->velocity)
+    CHECK(v[2] == Approx(-1).epsilon(1e-3));
+
+  scene = read(grid + "<NonUniformHexahedronFEMForceFieldAndMass useMass='false' totalMass='2'/>");
+  CHECK(scene.root.get<Force>()->interpolation == CellInterpolation::trilinear);
+  CHECK(scene.root.get<Force>()->nbVirtualFinerLevels == 0);  // as in SOFA
+  CHECK(!scene.root.get<Mass>());
+  CHECK(scene.root.get<UniformMass<Vec3d>>()->totalMass == 2);
+
+  auto refused = [&](std::string const& attributes) {
+    return error_of([&] { read(grid + "<HexahedronCompositeFEMForceFieldAndMass " + attributes + "/>"); });
+  };
+  CHECK_THAT(refused("useMass='0'"), Catch::Contains("there is no totalMass"));
+  CHECK_THAT(refused("useRamification='0'"), Catch::Contains("useRamification is not simulated"));
+}
+
 TEST_CASE("where bodies are named for another number of points, the first one carries all") {
   auto scene = read(
       "<MechanicalObject template='Rigid3d' position='1 0 0 0 0 0 1  2 0 0 0 0 0 1'/><Node name='points'>"

@@ -372,6 +372,11 @@ TEST_CASE("forces and masses over a kind of elements are named by their template
   auto small = node(fem("<LinearSmallStrainFEMForceField template='Vec3,Tetrahedron'/>"));
   CHECK(in<TetrahedronFEMForceField<Vec3d>>(small).method == RotationMethod::small);
 
+  auto prisms = node(fem("<CorotationalFEMForceField template='Vec3,Prism' rotationMethod='polar'/>"));
+  CHECK(in<PrismFEMForceField<Vec3d>>(prisms).method == ElementRotation::polar);
+  auto pyramids = node(fem("<LinearSmallStrainFEMForceField template='Vec3,Pyramid'/>"));
+  CHECK(in<PyramidFEMForceField<Vec3d>>(pyramids).method == ElementRotation::small);
+
   const std::string density =
       "<NodalMassDensity property='1100'/><NodalMassDensity name='other' property='5'/>";
   auto mass = node(fem(density + "<Node name='n'><FEMMass template='Vec3,Hexahedron'/></Node>"));
@@ -385,11 +390,41 @@ TEST_CASE("forces and masses over a kind of elements are named by their template
              Contains("test.scn:2:") && Contains("finds no NodalMassDensity"));
   CHECK_THAT(wrong(fem("<NodalMassDensity property='1 2'/><FEMMass template='Vec3,Edge'/>")),
              Contains("only one density"));
-  CHECK_THAT(wrong(fem("<CorotationalFEMForceField template='Vec3,Prism'/>")),
-             Contains("'Prism'; its template names one of Hexahedron, Tetrahedron"));
+  CHECK_THAT(wrong(fem("<CorotationalFEMForceField template='Vec3,Quad'/>")),
+             Contains("'Quad'; its template names one of Hexahedron, Tetrahedron, Prism, Pyramid"));
   CHECK_THAT(wrong(fem("<LinearSmallStrainFEMForceField/>")), Contains("no kind of elements"));
   CHECK_THAT(wrong(fem("<CorotationalFEMForceField template='Vec3,Hexahedron' rotationMethod='qr'/>")),
              Contains("rotationMethod: 'qr' is not one of triangle, "));
+}
+
+TEST_CASE("a grid becomes prisms, and pyramids are listed, with forces and masses of their own") {
+  auto scene = node(
+      "<EulerImplicitSolver/><CGLinearSolver/><RegularGridTopology name='grid' n='3 2 2' max='2 1 1'/>"
+      "<MechanicalObject/><FixedConstraint indices='0 3 6 9'/><Node name='prisms'><MeshTopology name='made'/>"
+      "<Hexa2PrismTopologicalMapping input='@grid' output='@made'/><NodalMassDensity property='10'/>"
+      "<FEMMass template='Vec3,Prism'/><CorotationalFEMForceField template='Vec3,Prism' "
+      "topology='@made'/></Node>");
+  CHECK(scene.warnings.empty());
+  CHECK(in<MeshTopology>(scene, "prisms").prisms.size() == 4);
+  Simulation sim{std::move(scene.root)};
+  sim.init();
+  auto const& mass = *sim.root().children()[0]->get<MeshMatrixMass<Vec3d>>();
+  double total = 0;
+  for (std::size_t i = 0; i < 12; ++i) total += mass.lumped.at(i);
+  CHECK(total == Approx(20).epsilon(1e-12));
+  auto listed = node(
+      "<MeshTopology pyramids='0 1 2 3 4' prisms='0 1 2 4 5 6'/>"
+      "<MechanicalObject position='0 0 0 1 0 0 1 1 0 0 1 0 0.5 0.5 1 1 0 1 1 1 1'/>");
+  CHECK(in<MeshTopology>(listed).pyramids == std::vector<Pyramid>{{0, 1, 2, 3, 4}});
+  CHECK(in<MeshTopology>(listed).prisms == std::vector<Prism>{{0, 1, 2, 4, 5, 6}});
+  // SOFA's containers of one kind have none
+  auto container = node(
+      "<MeshTopology name='all' tetrahedra='0 1 2 3' prisms='0 1 2 4 5 6'/><Node name='n'>"
+      "<TetrahedronSetTopologyContainer src='@../all'/><MechanicalObject "
+      "position='0 0 0 1 0 0 0 1 0 0 0 1 1 0 1 0 1 1 1 1 1'/></Node>"
+      "<MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1 0 0 2 1 0 2 0 1 2'/>");
+  CHECK(in<MeshTopology>(container, "n").tetrahedra.size() == 1);
+  CHECK(in<MeshTopology>(container, "n").prisms.empty());
 }
 
 TEST_CASE("FEM of tetrahedra has more names, with words and defaults of their own") {
@@ -470,6 +505,12 @@ TEST_CASE("a load whose elements are chosen by a link to none is on none, which 
                     "<TrianglePressureForceField pressure='1 0 0' triangleList='@roi.triangleIndices'/>");
   CHECK(in<TrianglePressureForceField<Vec3d>>(empty).none);
   CHECK(has(empty.warnings, "triangleList: names no element; no element bears the load"));
+  CHECK(has(empty.warnings, "by its number, as in SOFA"));
+  auto volume = node(
+      "<MeshTopology position='0 0 0 1 0 0 0 1 0 0 0 1' tetrahedra='0 1 2 3' createTriangleArray='1'/>"
+      "<MechanicalObject/><BoxROI name='roi' box='-1 -1 -1 2 2 2'/>"
+      "<TrianglePressureForceField pressure='1 0 0' triangleList='@roi.triangleIndices'/>");
+  CHECK(has(volume.warnings, "by its number, while in SOFA those may that createTriangleArray makes"));
   auto nowhere =
       node(sheet + "<TrianglePressureForceField pressure='1 0 0' triangleList='@rol.triangleIndices'/>");
   CHECK(in<TrianglePressureForceField<Vec3d>>(nowhere).none);
@@ -479,16 +520,69 @@ TEST_CASE("a load whose elements are chosen by a link to none is on none, which 
   CHECK_THAT(wrong(sheet + "<FixedConstraint indices='@rol.indices'/>"), Catch::Contains("leads nowhere"));
 }
 
-TEST_CASE("tetrahedra collide with nothing, as in SOFA, unless its method tests them against points") {
-  const std::string pipeline =
-                        "<DefaultPipeline/><BruteForceBroadPhase/><BVHNarrowPhase/><DefaultContactManager/>",
-                    model = "<MechanicalObject position='0 0 0'/><TetrahedronCollisionModel/>";
-  auto scene = node(pipeline + "<MinProximityIntersection/><PointCollisionModel/>" + model);
-  CHECK(has(scene.warnings, "<TetrahedronCollisionModel> collides with nothing, as in SOFA"));
-  CHECK(
-      has(node(pipeline + "<DiscreteIntersection/>" + model).warnings, "collides with nothing, as in SOFA"));
-  CHECK_THAT(wrong(pipeline + "<DiscreteIntersection/><PointCollisionModel/>" + model),
-             Catch::Contains("collides with points in SOFA, and with nothing here"));
+TEST_CASE("a link to nowhere is as none where the surroundings have the value, which is said") {
+  const std::string sheet = "<RegularGridTopology n='3 3 1' max='1 1 0'/><MechanicalObject/>";
+  auto chosen = node(sheet + "<BoxROI name='roi' position='@../Volume.position' box='-1 -1 -1 0.1 2 1'/>" +
+                     "<FixedConstraint indices='@roi.indices'/>");
+  CHECK(in<FixedConstraint<Vec3d>>(chosen).indices == std::vector<int>{0, 3, 6});
+  CHECK(has(chosen.warnings,
+            "<BoxROI>: position: the points of its node are taken, where SOFA's would choose none: "
+            "'@../Volume.position' leads nowhere"));
+  auto child = node(sheet +
+                    "<Node name='n'><MechanicalObject rest_position='@../gone.rest_position'/>"
+                    "<IdentityMapping/></Node>");
+  CHECK(in<MechanicalObject<Vec3d>>(child, "n").restPosition.empty());
+  CHECK(has(child.warnings, "rest_position: its points are at rest where the mapping has them then"));
+  CHECK_THAT(wrong("<MechanicalObject position='0 0 0' rest_position='@gone.position'/>"),
+             Catch::Contains("leads nowhere"));
+}
+
+TEST_CASE("an attribute with an underscore in front is switched off, which is said") {
+  auto scene = node("<EulerImplicitSolver _rayleighMass='3'/><CGLinearSolver/>");
+  CHECK(in<EulerImplicitSolver>(scene).rayleighMass == EulerImplicitSolver{}.rayleighMass);
+  CHECK(has(scene.warnings, "_rayleighMass has no effect, as in SOFA"));
+}
+
+TEST_CASE("a state that is told how it rests starts so") {
+  auto scene = node("<MechanicalObject rest_position='1 2 3  4 5 6'/>");
+  CHECK(in<MechanicalObject<Vec3d>>(scene).position == Vec3d::VecCoord{{1, 2, 3}, {4, 5, 6}});
+  auto carried = node(
+      "<MechanicalObject template='Rigid3' position='1 0 0 0 0 0 1  2 0 0 0 0 0 1'/><Node name='n'>"
+      "<MechanicalObject template='Rigid3' rest_position='0 1 0 0 0 0 1  0 2 0 0 0 0 1  0 3 0 0 0 0 1'/>"
+      "<RigidMapping rigidIndexPerPoint='1 1'/></Node>");
+  CHECK(has(carried.warnings, "rigidIndexPerPoint has 2 entries for 3 points; body 0 carries all of them"));
+  CHECK(in<MechanicalObject<Rigid3d>>(carried, "n").position.size() == 3);
+}
+
+TEST_CASE("a collision model over as many points as the topology above has its elements") {
+  const std::string grid =
+      "<RegularGridTopology name='grid' n='3 3 1' max='1 1 0'/><MechanicalObject name='body'/>";
+  const std::string models = "<TriangleCollisionModel/><LineCollisionModel/></Node>";
+  for (std::string const state :
+       {"<MechanicalObject position='@../body.position'/>", "<MechanicalObject/><IdentityMapping/>"}) {
+    auto scene = node(grid + "<Node name='n'>" + state + models);
+    Simulation sim{std::move(scene.root)};
+    sim.init();
+    auto const& n = *sim.root().children()[0];
+    CHECK(n.get<TriangleCollisionModel<Vec3d>>()->surface.elements.size() == 8);
+    CHECK(n.get<LineCollisionModel<Vec3d>>()->surface.elements.size() == 12);
+    CHECK(n.get<MeshTopology>()->quads.size() == 4);
+  }
+  auto fewer = node(grid + "<Node name='n'><MechanicalObject position='0 0 0'/>" + models);
+  CHECK(fewer.root.find_node("n")->get<MeshTopology>() == nullptr);
+}
+
+TEST_CASE("what collides in another way than in SOFA is there, and a warning says what differs") {
+  const std::string
+      pipeline = "<DefaultPipeline/><BruteForceBroadPhase/><DefaultContactManager/>",
+      model =
+          "<MeshTopology tetrahedra='0 1 2 3'/><MechanicalObject position='0 0 0 1 0 0 0 1 0 0 0 1'/>"
+          "<TetrahedronModel/>";
+  auto scene = node(pipeline + "<RayTraceNarrowPhase/><MinProximityIntersection/>" + model);
+  CHECK(has(scene.warnings, "keeps points and spheres out of its inside"));
+  CHECK(in<TetrahedronCollisionModel<Vec3d>>(scene).active);
+  CHECK_THAT(wrong(pipeline + "<RayTraceDetection/>"),
+             Catch::Contains("take BruteForceBroadPhase and RayTraceNarrowPhase"));
 }
 
 TEST_CASE("what has no effect on a picture, or on a response that is named, is taken") {
@@ -497,9 +591,18 @@ TEST_CASE("what has no effect on a picture, or on a response that is named, is t
       "response='PenalityContactForceField' responseParams='mu=0.5'/>"
       "<Node name='n'><OglModel/><IdentityMapping mapForces='0' mapMasses='0'/></Node>");
   CHECK(scene.warnings.empty());
-  CHECK_THAT(wrong("<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject/><IdentityMapping "
-                   "mapForces='0'/></Node>"),
-             Catch::Contains("mapForces is not simulated"));
+  const std::string mapped =
+      "<MechanicalObject position='0 0 0'/><Node name='n'><MechanicalObject name='child'/><IdentityMapping ";
+  CHECK(node(mapped + "mapForces='0' mapMasses='0' mapConstraints='0'/></Node>").warnings.empty());
+  for (std::string const below :
+       {"<UniformMass/></Node>",
+        "<Node name='m'><ConstantForceField indices='0' force='0 1 0'/></Node></Node>",
+        "</Node><Node name='j'><MechanicalObject/><SubsetMultiMapping input='@/n' indexPairs='0 0'/></Node>"})
+    CHECK_THAT(wrong(mapped + "mapForces='0'/>" + below), Catch::Contains("mapForces is not simulated"));
+  CHECK_THAT(wrong(mapped + "mapMasses='0'/><UniformMass/></Node>"),
+             Catch::Contains("mapMasses is not simulated"));
+  CHECK(node(mapped + "mapMasses='0'/><ConstantForceField indices='0' force='0 1 0'/></Node>")
+            .warnings.empty());
 }
 
 TEST_CASE("what old scenes say beside is ignored") {

@@ -155,10 +155,10 @@ TEST_CASE("an animation loop takes a constraint solver where the scene has none,
 
 TEST_CASE("a class that would be missed is an error, or a warning to the lenient") {
   const std::string content = R"(<Node>
-  <MechanicalObject/> <CapsuleModel radius="1"/> <DirectSAPNarrowPhase/>
+  <MechanicalObject/> <CylinderModel radius="1"/> <DirectSAPNarrowPhase/>
 </Node>)";
   const std::string all = wrong(content);
-  CHECK_THAT(all, Catch::Contains("test.scn:2:23: <CapsuleModel> collides with nothing here; take"));
+  CHECK_THAT(all, Catch::Contains("test.scn:2:23: <CylinderModel> collides with nothing here; take"));
   CHECK_THAT(all, Catch::Contains("<DirectSAPNarrowPhase> is no stage here; take BVHNarrowPhase"));
   auto scene = parse_scene<Standard>("test.scn", content, {.lenient = true});
   REQUIRE(scene.warnings.size() == 2);

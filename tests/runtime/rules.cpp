@@ -148,6 +148,15 @@ void mapping_rules() {
   breaks<Rule::parentComesLater>(node<"root">(node<"a">(dofs), child, node<"b">(dofs)));
   breaks<Rule::parentWithoutState>(node<"root">(node<"a">(dofs), node<"b">(), child));
   breaks<Rule::parentOfOtherDataTypes>(node<"root">(node<"a">(dofs), node<"b">(rigid), child));
+  breaks<Rule::parentOfOtherDataTypes>(node<"root">(
+      node<"a">(dofs),
+      node<"b">(dofs),
+      node<"c">(MechanicalObject<Vec3d>{},
+                DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d, Parents<"../a", "../b">>{})));
+  breaks<Rule::notTwoParents>(
+      node<"root">(node<"a">(dofs),
+                   node<"c">(MechanicalObject<Vec3d>{},
+                             DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d, Parents<"../a">>{})));
   breaks_typed<Rule::parentsByLinks>(
       node<"root">(dofs, node<"a">(MechanicalObject<Vec3d>{}, SubsetMultiMapping<Vec3d, Vec3d>{})));
   RuntimeNode<Standard> root;

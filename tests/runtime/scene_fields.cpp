@@ -26,7 +26,7 @@ TEST_CASE("every field of every scene of the examples has a value that it takes,
   for (std::string const& path : scenes()) {
     INFO(path);
 #ifndef SINEW_CCD
-    if (path.ends_with("hulls.scn")) continue;
+    if (path.ends_with("hulls.scn") || path.ends_with("boxes.scn")) continue;
 #endif
     auto sim = start(read_scene<Standard>(path));
     sim.animate(0.001);

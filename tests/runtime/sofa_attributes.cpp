@@ -120,6 +120,7 @@ TEST_CASE("what a scene leaves out has SOFA's default, or the exception has a re
       {"Gravity.gravity", "that of a node without one, which SOFA's nodes have"},
       {"MeshSpringForceField.stiffness", "the factory lists that of StiffSpringForceField; MeshSpringForceField.inl has 0"},
       {"MeshSpringForceField.damping", "the same"},
+      {"InteractionEllipsoidForceField.object2_forces", "scene files have SOFA's default, which is refused"},
       {"MeshROI.strict", "its constructor sets it to 0"},
       {"RestShapeSpringsForceField.activeDirections", "none given are all"},
       {"UncoupledConstraintCorrection.defaultCompliance", "rigid bodies answer by their masses"},

@@ -21,6 +21,9 @@ TEST_CASE("edges of elements come once, sorted") {
   const auto cell = edges_of(std::vector<Hexahedron>{{0, 1, 3, 2, 4, 5, 7, 6}});  // numbered as binary zyx
   CHECK(cell.size() == 12);
   for (auto const& [i, j] : cell) CHECK(((j - i) == 1 || (j - i) == 2 || (j - i) == 4));
+  CHECK(edges_of(std::vector<Pyramid>{{0, 1, 2, 3, 4}}).size() == 8);
+  CHECK(edges_of(std::vector<Prism>{{0, 1, 2, 3, 4, 5}}) ==
+        std::vector<Edge>{{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 4}, {2, 5}, {3, 4}, {3, 5}, {4, 5}});
   CHECK(edges_of(std::vector<Triangle>{}).empty());
   // a huge index costs no memory
   CHECK(edges_of(std::vector<Triangle>{{0, 2147483647, 5}}).back() == Edge{5, 2147483647});

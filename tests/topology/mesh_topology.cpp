@@ -28,7 +28,9 @@ TEST_CASE("MeshTopology shows its lists") {
                           .triangles = {{0, 1, 2}, {0, 1, 3}},
                           .quads = {{0, 1, 2, 3}},
                           .tetrahedra = {{0, 1, 2, 3}},
-                          .hexahedra = {{0, 1, 2, 3, 0, 1, 2, 3}}};
+                          .hexahedra = {{0, 1, 2, 3, 0, 1, 2, 3}},
+                          .pyramids = {{0, 1, 2, 3, 0}},
+                          .prisms = {{0, 1, 2, 3, 0, 1}}};
   const TopologyView view = mesh.view();
   CHECK(view.positions.size() == 4);
   CHECK(view.positions.data() == mesh.position.data());
@@ -37,6 +39,8 @@ TEST_CASE("MeshTopology shows its lists") {
   CHECK(view.quads.data() == mesh.quads.data());
   CHECK(view.tetrahedra.data() == mesh.tetrahedra.data());
   CHECK(view.hexahedra.data() == mesh.hexahedra.data());
+  CHECK(view.pyramids.data() == mesh.pyramids.data());
+  CHECK(view.prisms.data() == mesh.prisms.data());
   CHECK(view.grid == std::array<int, 3>{0, 0, 0});
   CHECK(init_error(mesh, corners).empty());
   // an empty one over points is no mistake; nor are points that no element uses, nor fewer positions than
@@ -58,6 +62,8 @@ TEST_CASE("MeshTopology refuses indices that the state has no point for") {
   refused({.quads = {{0, 1, 7, 2}}}, "quad 0 refers to point 7");
   refused({.tetrahedra = {{0, 1, 2, 4}}}, "tetrahedron 0 refers to point 4");
   refused({.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}}}, "hexahedron 0 refers to point 4");
+  refused({.pyramids = {{0, 1, 2, 3, 4}}}, "pyramid 0 refers to point 4");
+  refused({.prisms = {{0, 1, 2, 3, 0, 9}}}, "prism 0 refers to point 9");
   // more positions of its own do not help
   refused({.position = std::vector<Eigen::Vector3d>(5), .edges = {{0, 4}}}, "edge 0 refers to point 4");
 

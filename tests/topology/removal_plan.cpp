@@ -65,6 +65,42 @@ TEST_CASE("faces of hexahedra, whole or halved, go with them") {
   CHECK(plan.change(0).points.kept == std::vector<Index>{4, 5, 6, 7, 8, 9, 10, 11});
 }
 
+TEST_CASE("what lies in prisms and pyramids goes with them, and these with a hexahedron") {
+  // a prism under a pyramid, in a topology with their faces; a hexahedron in another, whose half the prism is
+  const std::vector<Prism> prisms{{0, 1, 2, 3, 4, 5}};
+  const std::vector<Pyramid> pyramids{{0, 1, 4, 3, 6}};
+  const std::vector<Quad> quads{{0, 1, 4, 3}, {1, 2, 5, 4}};
+  const std::vector<Triangle> triangles{{0, 1, 6}, {0, 2, 1}};
+  const TopologyView view{.triangles = triangles, .quads = quads, .pyramids = pyramids, .prisms = prisms};
+  const auto plan = plan_element_removal(9, {view}, 0, {.prisms = {0}});
+  CHECK(plan.elements[0][6] == std::vector<bool>{false});
+  CHECK(plan.elements[0][5] == std::vector<bool>{true});
+  CHECK(plan.elements[0][2] == std::vector<bool>{true, false});
+  CHECK(plan.elements[0][1] == std::vector<bool>{true, false});
+  CHECK(plan.change(0).points.kept == std::vector<Index>{0, 1, 3, 4, 6, 7, 8});
+  const auto other = plan_element_removal(9, {view}, 0, {.pyramids = {0}});
+  CHECK(other.elements[0][1] == std::vector<bool>{false, true});
+  CHECK(other.points[6] == false);
+  const std::vector<Hexahedron> hexahedra{{0, 1, 2, 7, 3, 4, 5, 8}};
+  const auto whole =
+      plan_element_removal(9, {TopologyView{.hexahedra = hexahedra}, view}, 0, {.hexahedra = {0}});
+  CHECK(whole.elements[1][6] == std::vector<bool>{false});
+  CHECK(whole.elements[1][5] == std::vector<bool>{true});
+  CHECK(plan_point_removal({true, true, true, true, true, true, false, true, true}, {view}).elements[0][5] ==
+        std::vector<bool>{false});
+}
+
+TEST_CASE("values of elements in space are one kind after the other") {
+  TopologyChange change;
+  change.elements[std::size_t(ElementKind::tetrahedron)] = Renumbering::of({true, false});
+  change.elements[std::size_t(ElementKind::hexahedron)] = Renumbering::of({false, true});
+  change.elements[std::size_t(ElementKind::prism)] = Renumbering::of({true, false, true});
+  std::vector<double> values{1, 2, 3, 4, 5, 6, 7};
+  change.ofDimension(3, values.size()).filter(values);
+  CHECK(values == std::vector<double>{1, 4, 5, 7});
+  CHECK(change.dimension() == 3);
+}
+
 TEST_CASE("elements go with their points") {
   const TwoTetrahedra mesh;
   const auto plan = plan_point_removal({true, true, true, true, true, false}, {mesh.surfaces()});

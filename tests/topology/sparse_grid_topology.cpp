@@ -197,6 +197,35 @@ TEST_CASE("surfaces of quads and from files are the same") {
   CHECK(read.hexahedra == grid.hexahedra);
 }
 
+TEST_CASE("points alone have the cells that they are in, and those that these shut in") {
+  std::vector<Eigen::Vector3d> corners, shell;  // of a cube; of all cells of another but its middle
+  for (int k = 0; k < 3; ++k)
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) {
+        const Eigen::Vector3d p = Eigen::Vector3d(i, j, k) + Eigen::Vector3d::Constant(0.5);
+        if (i != 1 && j != 1 && k != 1) corners.push_back(p);
+        if (i != 1 || j != 1 || k != 1) shell.push_back(p);
+      }
+  const Eigen::Vector3d low = Eigen::Vector3d::Zero(), high = Eigen::Vector3d::Constant(3);
+  const auto apart = made({.n = {4, 4, 4}, .position = corners, .min = low, .max = high});
+  CHECK(apart.hexahedra.size() == 8);
+  CHECK(apart.points.size() == 64);  // no two have a corner in common
+  CHECK(apart.fill == std::vector<double>(8, 0.5));
+  for (auto const& h : apart.hexahedra) {
+    int held = 0;
+    for (auto const& p : corners)
+      held += (p - (apart.points[std::size_t(h[0])] + apart.points[std::size_t(h[6])]) / 2).norm() < 1e-12;
+    CHECK(held == 1);
+  }
+  const auto shut = made({.n = {4, 4, 4}, .position = shell, .min = low, .max = high});
+  CHECK(shut.hexahedra.size() == 27);
+  CHECK(std::count(shut.fill.begin(), shut.fill.end(), 1.0) == 1);
+  CHECK(
+      made({.n = {4, 4, 4}, .position = shell, .min = low, .max = high, .fillWeighted = false}).fill.empty());
+  // a box is 1 % larger than the points
+  CHECK(made({.n = {2, 2, 2}, .position = corners}).points[0] == Eigen::Vector3d::Constant(0.48));
+}
+
 TEST_CASE("a surface far from the origin is met as one near it") {
   const Mesh near = block({0, 0, 0}, straight, {1, 1, 1}), far = block({1e6, -1e6, 1e6}, straight, {1, 1, 1});
   const auto a = made({.n = {12, 12, 12}, .position = near.positions, .triangles = near.triangles});
@@ -217,7 +246,7 @@ TEST_CASE("SparseGridTopology says what is wrong, and keeps what it had") {
     CHECK((grid.points == before));
     return said;
   };
-  CHECK(contains(change([](auto& g) { g.triangles.clear(); }), "there is no surface"));
+  CHECK(contains(change([](auto& g) { g.triangles.clear(), g.position.clear(); }), "there is no point"));
   CHECK(contains(change([](auto& g) { g.triangles.resize(6); }), "the surface is not closed"));
   CHECK(contains(change([](auto& g) {
                    for (std::size_t t = 0; t < 6; ++t) std::swap(g.triangles[t][0], g.triangles[t][1]);

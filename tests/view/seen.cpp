@@ -7,6 +7,7 @@
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/view/picture.hpp>
 
+#include <algorithm>
 #include <numeric>
 
 namespace test_seen {
@@ -164,6 +165,39 @@ TEST_CASE("springs by their stretch, and points that are held") {
   CHECK(scene.legend->low == Approx(1.5));
   REQUIRE(scene.constrained.size() == 1);
   CHECK(scene.constrained[0] == Eigen::Vector3d(0, 0, 0));
+}
+
+TEST_CASE("capsules are shown as what is within their radius") {
+  MeshTopology edge;
+  edge.edges = {{0, 1}};
+  const Eigen::Vector3d start(0.2, 0, 0), end(0.5, 1, -0.3);
+  Simulation sim{node<"root">(DefaultPipeline{},
+                              BruteForceBroadPhase{},
+                              BVHNarrowPhase{},
+                              MinProximityIntersection{},
+                              DefaultContactManager{},
+                              node<"rod">(edge,
+                                          MechanicalObject<Vec3d>{.position = {start, end}},
+                                          CapsuleCollisionModel<Vec3d>{.defaultRadius = 0.1}))};
+  sim.init();
+  const SeenScene scene = view::seen_scene(sim, {.collisionModels = true});
+  SeenBody const& rod = body_of(scene, "/root/rod", SeenBody::Kind::collision);
+  const Eigen::Vector3d axis = end - start;
+  auto nearest = [&](Eigen::Vector3d const& x) -> Eigen::Vector3d {
+    return start + std::clamp((x - start).dot(axis) / axis.squaredNorm(), 0.0, 1.0) * axis;
+  };
+  double area = 0;
+  for (Eigen::Vector3d const& x : rod.points) CHECK((x - nearest(x)).norm() == Approx(0.1));
+  for (auto const& [a, b, c] : rod.triangles) {
+    auto at = [&](Index i) { return rod.points[std::size_t(i)]; };
+    const Eigen::Vector3d normal = (at(b) - at(a)).cross(at(c) - at(a)), middle = (at(a) + at(b) + at(c)) / 3;
+    CHECK(normal.dot(middle - nearest(middle)) > 0);  // outwards
+    area += normal.norm() / 2;
+  }
+  // 16 sides of the tube, and a ball of 128 faces: smaller by some percent
+  const double whole = 2 * 3.14159265 * 0.1 * axis.norm() + 4 * 3.14159265 * 0.01;
+  CHECK(area < whole);
+  CHECK(area > 0.95 * whole);
 }
 
 TEST_CASE("arrows of velocities, reactions and contacts, and the collision models that touch") {

@@ -80,7 +80,7 @@ void same_as_host(std::string const& name, double rounding) {
 }  // namespace
 
 TEST_CASE("scene files on a device move as over the processor's DataTypes") {
-  for (const char* name : {"tetrahedra", "hexahedra", "hyperelastic", "rigid", "contact"})
+  for (const char* name : {"tetrahedra", "hexahedra", "hyperelastic", "rigid", "contact", "multigrid"})
     same_as_host(name, 1e-10);
 }
 

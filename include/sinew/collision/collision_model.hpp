@@ -17,7 +17,31 @@ void describe_surface(M const& model, CollisionSurface& surface, std::string con
   surface.rigid = M::DataTypes::rigid;
   copy_fields(model, collision_model_fields<M>(), surface.settings, CollisionSettings::fields());
   surface.path = where;
+  surface.className = M::className;
   surface.resize(vertices);
+}
+
+/// Fills a list of one value for each of `count` things up with a value for those that have none; an empty
+/// one stays empty. Throws Error where it has more.
+template <class T>
+void fill_up(std::vector<T>& list, std::size_t count, T const& value, std::string_view name,
+             std::string_view things, std::string const& where) {
+  if (list.size() > count)
+    throw Error(where,
+                text(name,
+                     " has ",
+                     list.size(),
+                     " entries for ",
+                     count,
+                     ' ',
+                     things,
+                     "; give one for each, or fewer"));
+  if (!list.empty()) list.resize(count, value);
+}
+/// The same as one value for each.
+template <class T>
+T each_or(std::vector<T> const& list, std::size_t i, T const& value) {
+  return list.empty() ? value : list[i];
 }
 
 /// The model of the points, lines or triangles of a topology. `Kind` says which: shape, elements(context),
@@ -33,6 +57,7 @@ struct MeshCollisionModel {
   static constexpr std::string_view className = Kind::className;
   static constexpr std::string_view aliases = Kind::aliases;
   static constexpr Shape shape = Kind::shape;
+  static constexpr bool overElements = shape != Shape::point;
 
   bool active = true, moving = true, simulated = true, selfCollision = false, bothSide = false;
   std::vector<int> group{};

@@ -12,6 +12,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -24,10 +25,12 @@ struct CollisionSurface : SurfaceShape {
   // of the model, at init
   CollisionSettings settings{};
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
-  std::vector<double> radius{};                // of each sphere
-  std::optional<ConvexHull> hull{};            // of each element, in the axes of its rigid
+  std::vector<double> radius{};                // around each element; empty: none
+  std::vector<ConvexHull> hulls{};             // in the axes of rigids: one of all elements, or one of each
+  std::vector<std::array<int, 4>> solid{};     // tetrahedra of which it is the surface, if it is filled
   std::string path{};                          // of its node
   std::string name{};                          // of the model, where it has one
+  std::string_view className{};                // of the model
   void const* state = nullptr;
   int number = -1;                   // among the surfaces of the scene, in their order
   int solver = -1;                   // which of the ODE solvers moves it; none: -1
@@ -44,7 +47,8 @@ struct CollisionSurface : SurfaceShape {
   std::vector<std::array<int, 2>> beside{};  // of segments that a model of triangles on this state has as
                                              // edges: the corners opposite to them; -1: none
   std::vector<int> firstAround{},
-      around{};  // the vertices joined to each vertex by edges, in compressed rows
+      around{};                        // the vertices joined to each vertex by edges, in compressed rows
+  std::vector<double> radiusAround{};  // of the thickest capsules that join them
 
   // vertices, now
   std::vector<Eigen::Vector3d> position{}, velocity{}, force{}, dx{};
@@ -53,17 +57,16 @@ struct CollisionSurface : SurfaceShape {
   std::vector<int> touched{};                                  // vertices with contacts
   std::vector<char> isTouched{};
 
-  std::vector<AxisBox> boxes{};  // of the elements
+  std::vector<AxisBox> boxes{}, solidBoxes{};  // of the elements, and of what fills it
   AxisBox box{};
-  BoundingTree tree{};
+  BoundingTree tree{}, solidTree{};
   std::optional<std::array<double, 2>> enclosed{};  // margin and dt of the boxes, while vertices stand still
   long enclosures = 0;                              // how often they were made anew
   bool elsewhere = false;  // in this step its vertices are on a device: the host has those that touch
 
   std::size_t size() const { return elements.size(); }
-  SINEW_HD double radiusOf(int element) const {
-    return shape == Shape::sphere ? radius[std::size_t(element)] : 0;
-  }
+  SINEW_HD double radiusOf(int element) const { return radius.empty() ? 0 : radius[std::size_t(element)]; }
+  ConvexHull const& hullOf(int element) const { return hulls[hulls.size() == 1 ? 0 : std::size_t(element)]; }
   /// The corners of an element.
   template <std::size_t N>
   SINEW_HD std::array<Eigen::Vector3d, N> corner(std::vector<Eigen::Vector3d> const& of, int element) const {
@@ -87,7 +90,7 @@ struct CollisionSurface : SurfaceShape {
   /// may lean towards the other place.
   bool isLocalMinimum(int element, std::array<int, 3> const& vertices, Eigen::Vector3d const& d,
                       double cone = leastCone) const;
-  static constexpr double leastCone = 1e-9;
+  static constexpr double leastCone = 1e-9, coneAlong = 0.02;
 
   void findNeighbours(std::size_t vertices);
   /// What is wrong with the order of the corners of one-sided triangles where they are now, which says what
@@ -113,7 +116,7 @@ struct CollisionSurface : SurfaceShape {
   void enclose(double margin, double dt);
 
  private:
-  AxisBox hullBox(std::size_t v, double dt) const;
+  AxisBox hullBox(int element, double dt) const;
 };
 
 /// Sets position and velocity of a vertex of a surface from those of a point of its state.
@@ -285,6 +288,7 @@ SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {
   }
   for (std::size_t v = 0; v < vertices; ++v) firstAround[v + 1] += firstAround[v];
   around.assign(std::size_t(firstAround[vertices]), -1);
+  if (shape == Shape::capsule) radiusAround.assign(around.size(), 0);
   auto next = firstAround;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     if (ofTriangles)  // of two triangles at an edge; more than two are beyond this filter
@@ -294,9 +298,16 @@ SINEW_ONCE void CollisionSurface::findNeighbours(std::size_t vertices) {
           across[std::size_t(edges[i][2] / 3)][std::size_t(edges[i][2] % 3)] =
               elements[std::size_t(there / 3)][std::size_t((there % 3 + 2) % 3)];
         }
-    if (i > 0 && same(i, i - 1)) continue;
-    around[std::size_t(next[std::size_t(edges[i][0])]++)] = edges[i][1];
-    around[std::size_t(next[std::size_t(edges[i][1])]++)] = edges[i][0];
+    auto join = [&](int from, int to) {
+      int& row = next[std::size_t(from)];
+      if (i == 0 || !same(i, i - 1)) around[std::size_t(row++)] = to;
+      if (shape == Shape::capsule) {
+        double& thickest = radiusAround[std::size_t(row - 1)];
+        thickest = std::max(thickest, radiusOf(edges[i][2] / 3));
+      }
+    };
+    join(edges[i][0], edges[i][1]);
+    join(edges[i][1], edges[i][0]);
   }
 }
 
@@ -311,6 +322,7 @@ SINEW_ONCE void CollisionSurface::resize(std::size_t vertices) {
   touched.reserve(vertices);
   isTouched.assign(vertices, 0);
   boxes.resize(size());
+  solidBoxes.resize(solid.size());
   enclosed.reset();
 }
 
@@ -326,24 +338,31 @@ SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
       b.include(position[v]);
       if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
     }
-    if (hull) b = hullBox(std::size_t(elements[e][0]), dt);
+    if (shape == Shape::hull) b = hullBox(int(e), dt);
     boxes[e] = b.grown(settings.proximity + margin + radiusOf(int(e)));
     box.include(boxes[e]);
   }
   tree.update(boxes);
+  for (std::size_t i = 0; i < solid.size(); ++i) {
+    solidBoxes[i] = AxisBox{};
+    for (const int v : solid[i]) solidBoxes[i].include(position[std::size_t(v)]);
+  }
+  if (!solid.empty()) solidTree.update(solidBoxes);
   if (solver < 0) enclosed = {margin, dt};  // the others hardly ever stand still
 }
 
-SINEW_ONCE AxisBox CollisionSurface::hullBox(std::size_t v, double dt) const {
+SINEW_ONCE AxisBox CollisionSurface::hullBox(int element, double dt) const {
+  ConvexHull const& hull = hullOf(element);
+  const auto v = std::size_t(elements[std::size_t(element)][0]);
   const Eigen::Matrix3d rotation = orientation[v].toRotationMatrix();
   AxisBox b;
-  for (auto const& p : hull->points()) b.include(position[v] + rotation * p);
+  for (auto const& p : hull.points()) b.include(position[v] + rotation * p);
   if (!(dt > 0)) return b;
   AxisBox swept = b;
   swept.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
   swept.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
   // a point at r moves by at most |w| r dt as the body rotates
-  return swept.grown(dt * spin[v].norm() * hull->reach());
+  return swept.grown(dt * spin[v].norm() * hull.reach());
 }
 
 }  // namespace sinew

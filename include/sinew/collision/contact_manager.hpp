@@ -240,7 +240,8 @@ struct ContactManager {
     return found.emplace_back();
   }
 
-  /// The contacts that were found take the place of those before.
+  /// The contacts that were found take the place of those before; no vertex of a model is touched yet, but by
+  /// those of other managers.
   void manage(double dt) {
     sortFound();
     foundVertices.list(foundKeys, bodies);
@@ -281,7 +282,6 @@ struct ContactManager {
     keys.swap(foundKeys);
     ofVertices.swap(foundVertices);
     All::setStep(responses, dt);
-    for (auto* s : surfaces) s->clearTouched();
     auto touch = [&](ContactSide const& side) {
       for (int k = 0; k < side.corners(); ++k)
         surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);

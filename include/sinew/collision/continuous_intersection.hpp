@@ -43,21 +43,19 @@ struct ContinuousIntersection {
     if (now) now->limit = limit;
     if (now && now->distance <= resting) return now;
     // what no solver moves stands where it will be at the end of the step, and comes from before
-    auto moved = [&](auto corners, CollisionSurface const& s, int element, double time) {
+    auto moved = [&](auto corners, CollisionSurface const& s, int element, int first, double time) {
       if (s.solver < 0) time -= pair.dt;
       for (std::size_t c = 0; c < corners.size(); ++c)
-        corners[c] += time * s.velocity[std::size_t(s.elements[std::size_t(element)][c])];
+        corners[c] +=
+            time * s.velocity[std::size_t(s.elements[std::size_t(element)][std::size_t(first) + c])];
       return corners;
     };
-    const auto impact = time_of_impact(moved(a, pair.a, pair.elementA, 0),
-                                       moved(a, pair.a, pair.elementA, pair.dt),
-                                       moved(b, pair.b, pair.elementB, 0),
-                                       moved(b, pair.b, pair.elementB, pair.dt),
-                                       pair.thickness() + limit);
+    auto atA = [&](double time) { return moved(a, pair.a, pair.elementA, pair.firstA, time); };
+    auto atB = [&](double time) { return moved(b, pair.b, pair.elementB, pair.firstB, time); };
+    const auto impact = time_of_impact(atA(0), atA(pair.dt), atB(0), atB(pair.dt), pair.thickness() + limit);
     if (!impact) return now;
     const double time = *impact * pair.dt;
-    auto then =
-        contact_at(pair, moved(a, pair.a, pair.elementA, time), moved(b, pair.b, pair.elementB, time), false);
+    auto then = contact_at(pair, atA(time), atB(time), false);
     if (!then || !is_of_pair(pair, *then)) return std::nullopt;
     then->limit = limit;
     then->distance =

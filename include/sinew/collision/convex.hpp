@@ -37,6 +37,21 @@ struct ConvexView {
   Mat<double, 3> rotation;
   V shift, middle;
   double radius, margin;
+  bool isBox = false;
+
+  /// The directions of the edges, where they are known: of a box, and of up to four points; else -1.
+  int edges(std::array<V, 6>& directions) const {
+    if (isBox) {
+      for (int k = 0; k < 3; ++k) directions[std::size_t(k)] = rotation.col(k);
+      return 3;
+    }
+    if (count > 4) return -1;
+    int n = 0;
+    for (std::size_t i = 0; i < count; ++i)
+      for (std::size_t j = i + 1; j < count; ++j)
+        directions[std::size_t(n++)] = rotation * (points[j] - points[i]);
+    return n;
+  }
 
   V support(V const& d) const {
     const V inBody = rotation.transpose() * d;
@@ -57,7 +72,8 @@ inline ConvexView convex_view(PosedHull const& h, Vec<double, 3> const& origin) 
           shift,
           rotation * h.hull.middle() + shift,
           h.hull.radius(),
-          0};
+          0,
+          h.hull.isBox()};
 }
 inline ConvexView convex_view(Sphere<double> const& s, Vec<double, 3> const& origin) {
   const Vec<double, 3> at = s.center - origin;
@@ -219,9 +235,7 @@ inline ConvexContact convex_contact(ConvexView const& a, ConvexView const& b) {
     c.pointA = apart.pointA;
     c.pointB = apart.pointB;
   } else {
-    // candidates, the best few of which are each improved: what libccd finds, the normals of the last
-    // simplex, which are right for bodies without a volume, the line between the middles, and 26 directions
-    // all around
+    // candidates, the best few of which are each improved
     constexpr int few = 4;
     std::array<std::pair<double, V>, few> best;
     best.fill({std::numeric_limits<double>::infinity(), V(0, 0, 1)});
@@ -234,14 +248,32 @@ inline ConvexContact convex_contact(ConvexView const& a, ConvexView const& b) {
         if (next.first < kept.first) std::swap(next, kept);
       }
     };
-    offer(expanding_polytope(a, b, size));
-    auto both = [&](V const& d) { offer(d), offer(-d); };
-    for (std::size_t i = 0; i + 2 < apart.count; ++i)
-      for (std::size_t j = i + 1; j + 1 < apart.count; ++j)
-        for (std::size_t k = j + 1; k < apart.count; ++k)
-          both((apart.simplex[j] - apart.simplex[i]).cross(apart.simplex[k] - apart.simplex[i]));
-    offer(between);
-    for (int k = 0; k < 27; ++k) offer(V(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+    auto both = [&](V const& d) { d.dot(between) < 0 ? (offer(-d), offer(d)) : (offer(d), offer(-d)); };
+    std::array<V, 6> ofA, ofB;
+    const int edgesA = a.edges(ofA), edgesB = b.edges(ofB);
+    if (edgesA >= 0 && edgesB >= 0) {
+      // The faces of the difference of the two are parallel to two edges, so that this is all that it can be
+      // (the axes of Gottschalk, Lin, Manocha 1996). Where all edges are parallel there is no face; what is
+      // on a line is parted across it.
+      auto edge = [&](int i) -> V const& {
+        return i < edgesA ? ofA[std::size_t(i)] : ofB[std::size_t(i - edgesA)];
+      };
+      for (int i = 0; i < edgesA + edgesB; ++i)
+        for (int j = i + 1; j < edgesA + edgesB; ++j) both(edge(i).cross(edge(j)));
+      for (int i = 0; i < edgesA + edgesB; ++i)
+        if (edge(i).squaredNorm() > 0) both(edge(i).unitOrthogonal());
+      both(V(0, 0, 1));
+    } else {
+      // what libccd finds, the normals of the last simplex, which are right for bodies without a volume, the
+      // line between the middles, and 26 directions all around
+      offer(expanding_polytope(a, b, size));
+      for (std::size_t i = 0; i + 2 < apart.count; ++i)
+        for (std::size_t j = i + 1; j + 1 < apart.count; ++j)
+          for (std::size_t k = j + 1; k < apart.count; ++k)
+            both((apart.simplex[j] - apart.simplex[i]).cross(apart.simplex[k] - apart.simplex[i]));
+      offer(between);
+      for (int k = 0; k < 27; ++k) offer(V(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
+    }
 
     // apart along a candidate, the bodies show the face of their difference that is near: its normal to
     // rounding
@@ -282,9 +314,10 @@ concept ConvexShape = requires(Shape const& s, Vec<double, 3> const& origin) {
 /// least motion that parts them. Its direction is the best of what libccd's EPA and 26 directions around lead
 /// to, each improved to the rounding of a face of the Minkowski difference: of 20,000 random pairs of hulls
 /// none was deeper than need be, or one among hulls of small whole coordinates, which EPA alone has wrong in
-/// one of 20 pairs. Moved by the depth the bodies are apart in any case. Bodies that touch, within 8 epsilons
-/// of the size, count as overlapping. A sphere is its centre with a margin, as exact as a point. libccd takes
-/// heap memory for each pair that overlaps; pairs that are apart take none.
+/// one of 20 pairs. Of boxes, segments, triangles and points with one another it is in closed form: the best
+/// of the directions across two of their edges. Moved by the depth the bodies are apart in any case. Bodies
+/// that touch, within 8 epsilons of the size, count as overlapping. A sphere is its centre with a margin, as
+/// exact as a point. libccd takes heap memory for each pair of other hulls that overlaps; nothing else does.
 template <ConvexShape A, ConvexShape B>
 ConvexContact convex_contact(A const& a, B const& b) {
   const Vec<double, 3> origin = detail::convex_origin(a);

@@ -60,7 +60,7 @@ struct ConvexCollisionModel {
       } catch (Error const& error) {
         throw Error(where, error.what());
       }
-    surface.hull.emplace(std::move(all), where);
+    surface.hulls.assign(1, ConvexHull(std::move(all), where));
     surface.elements = points_of(context.topology, context.rest.size());
     describe_surface(*this, surface, context.where, context.rest.size());
   }

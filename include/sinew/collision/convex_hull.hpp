@@ -15,12 +15,15 @@ class ConvexHull {
  public:
   /// Throws Error where there is no point, or one that is not finite.
   explicit ConvexHull(std::vector<Vec<double, 3>> corners, std::string_view where = "ConvexHull");
+  /// The box of half such sides along the axes, around the origin.
+  static ConvexHull box(Vec<double, 3> const& half, std::string_view where = "ConvexHull");
   std::vector<Vec<double, 3>> const& points() const { return points_; }
   Vec<double, 3> const& middle() const { return middle_; }
   /// Of the ball around middle().
   double radius() const { return radius_; }
   /// Of the ball around the origin of the axes.
   double reach() const { return reach_; }
+  bool isBox() const { return isBox_; }
   /// The first point that is farthest along d.
   std::size_t support(Vec<double, 3> const& d) const;
 
@@ -28,6 +31,7 @@ class ConvexHull {
   std::vector<Vec<double, 3>> points_;
   Vec<double, 3> middle_{0, 0, 0};
   double radius_ = 0, reach_ = 0;
+  bool isBox_ = false;
 };
 
 }  // namespace sinew
@@ -53,6 +57,15 @@ SINEW_ONCE ConvexHull::ConvexHull(std::vector<Vec<double, 3>> corners, std::stri
     radius_ = std::max(radius_, (p - middle_).norm());
     reach_ = std::max(reach_, p.norm());
   }
+}
+
+SINEW_ONCE ConvexHull ConvexHull::box(Vec<double, 3> const& half, std::string_view where) {
+  std::vector<Vec<double, 3>> corners;
+  for (int k = 0; k < 8; ++k)
+    corners.push_back({k & 1 ? half[0] : -half[0], k & 2 ? half[1] : -half[1], k & 4 ? half[2] : -half[2]});
+  ConvexHull hull(std::move(corners), where);
+  hull.isBox_ = true;
+  return hull;
 }
 
 SINEW_ONCE std::size_t ConvexHull::support(Vec<double, 3> const& d) const {

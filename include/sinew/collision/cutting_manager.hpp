@@ -111,6 +111,9 @@ struct CuttingManager {
     Eigen::AlignedBox3d box;
     for (auto const& p : x) box.extend(p);
     for (auto const& p : before) box.extend(p);
+    // what it carries may lie beside it
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * box.diagonal().norm());
+    box = {box.min() - margin, box.max() + margin};
     if (!box.intersects(swept.box())) {
       ++stroke;
       facing.setZero();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/collision/proximity.hpp>
+#include <sinew/collision/solid_contacts.hpp>
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/component.hpp>
 
@@ -30,6 +31,7 @@ struct DefaultPipeline {
   // primitives of two models whose boxes meet: those that are found one after the other are met together
   std::array<std::pair<int, int>, 256> candidates{};
   std::size_t count = 0;
+  std::vector<Contact> inSolids{};  // of two models
 
   /// Whether two models may collide at all; those that one frame carries cannot.
   static bool compare(CollisionSurface const& a, CollisionSurface const& b);
@@ -53,6 +55,18 @@ struct DefaultPipeline {
     for (auto const& pair : near) {
       const int i = pair.first, j = pair.second;
       CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
+      if constexpr (MeetsModels<Narrow>)
+        if (narrow.meets(a, b)) {
+          narrow.contacts(a, b, limitOf(intersection, a, b), AddTo<Manager>{manager, i, j});
+          continue;
+        }
+      for (const bool first : {true, false}) {
+        CollisionSurface const &solid = first ? a : b, &points = first ? b : a;
+        if (solid.solid.empty() || skeleton(points.shape) != Shape::point || a.state == b.state) continue;
+        find_in_solid(solid, points, limitOf(intersection, a, b), first, inSolids);
+        for (Contact& contact : inSolids) AddTo<Manager>{manager, i, j}(contact);
+        inSolids.clear();
+      }
       if (!compares(intersection, a, b)) continue;
       narrow.pairs(a, b, [&](int elementA, int elementB) {
         ++boxTests;
@@ -80,6 +94,17 @@ struct DefaultPipeline {
     count = 0;
   }
 
+  // the distance below which contacts of two models that no method has found are answered
+  template <class Intersection>
+  static double limitOf(Intersection const& intersection, CollisionSurface const& a,
+                        CollisionSurface const& b) {
+    const double proximity = a.settings.proximity + b.settings.proximity;
+    if constexpr (MeetsHulls<Intersection>)
+      return intersection.limit() + proximity;
+    else
+      return intersection.reach() + proximity;
+  }
+
   template <class Manager>
   struct AddTo {
     Manager& manager;
@@ -94,25 +119,38 @@ struct DefaultPipeline {
   template <Shape A, Shape... Known, class Intersection, class Manager>
   void withShape(ShapeList<Known...>, Intersection const& intersection, Manager& manager, int i, int j,
                  double dt) const {
+    constexpr bool hasPoints = ((Known == Shape::point) || ...);
     if (skeleton(surfaces[std::size_t(i)]->shape) == A)
-      (intersect<A, Known>(intersection, manager, i, j, dt), ...);
+      (intersect<A, Known, hasPoints>(intersection, manager, i, j, dt), ...);
   }
-  template <Shape A, Shape B, class Intersection, class Manager>
+  // f for a primitive, and the ends that capsules have for themselves: f<shape>(first of its corners)
+  template <Shape S, bool HasPoints, class F>
+  static void forEachPart(CollisionSurface const& s, F&& f) {
+    f.template operator()<S>(0);
+    if constexpr (S == Shape::line && HasPoints)
+      for (int end = 0; s.shape == Shape::capsule && end < 2; ++end) f.template operator()<Shape::point>(end);
+  }
+  template <Shape A, Shape B, bool HasPoints, class Intersection, class Manager>
   void intersect(Intersection const& intersection, Manager& manager, int i, int j, double dt) const {
     CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
     if (skeleton(b.shape) != B) return;
     const double cone = manager.coneOf(i, j);
     const AddTo<Manager> add{manager, i, j};
     for (auto [elementA, elementB] : std::span(candidates.data(), count)) {
-      const PrimitivePair<A, B> pair{a, b, elementA, elementB, dt, cone};
-      if constexpr (A == Shape::hull || B == Shape::hull) {
-        HullContacts<A, B>::find(pair, intersection, add);
-      } else {
-        static_assert(Intersects<Intersection, A, B>,
-                      "Sinew: an intersection method has no 'std::optional<Contact> "
-                      "intersect(PrimitivePair<A, B> const& pair) const' for two shapes of the scene.");
-        if (auto contact = intersection.intersect(pair)) add(*contact);
-      }
+      const int e = elementA, f = elementB;
+      if constexpr (A == Shape::hull || B == Shape::hull)
+        HullContacts<A, B>::find(PrimitivePair<A, B>{a, b, e, f, dt, cone}, intersection, add);
+      else
+        forEachPart<A, HasPoints>(a, [&]<Shape OfA>(int firstA) {
+          forEachPart<B, HasPoints>(b, [&]<Shape OfB>(int firstB) {
+            static_assert(Intersects<Intersection, OfA, OfB>,
+                          "Sinew: an intersection method has no 'std::optional<Contact> "
+                          "intersect(PrimitivePair<A, B> const& pair) const' for two shapes of the scene.");
+            if (auto contact =
+                    intersection.intersect(PrimitivePair<OfA, OfB>{a, b, e, f, dt, cone, firstA, firstB}))
+              add(*contact);
+          });
+        });
     }
   }
 };

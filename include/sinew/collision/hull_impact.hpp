@@ -57,7 +57,7 @@ std::optional<Contact> contact_of_centres(PrimitivePair<A, B> const& pair, Moved
   double radius = std::numeric_limits<double>::infinity(), angularReach = 0;
   auto consider = [&](auto const& p) {
     if (p.surface.solver < 0 || !(p.size() > 0)) return;
-    const double reach = p.surface.hull->reach();
+    const double reach = p.reach();
     radius = std::min(radius, p.size());
     angularReach += std::min(1.0, p.surface.spin[p.vertex(0)].norm() * (pair.dt - time)) * reach;
   };

@@ -18,10 +18,11 @@ struct HullRay<CollisionSurface> {
     const detail::MovedPrimitive<Shape::hull> hull(s, element, 0);
     const detail::ConvexView view = hull.view(hull.corners[0]);
     const Eigen::Vector3d start = ray.origin - hull.corners[0];
-    const double far = start.norm() + s.hull->reach();
-    double t = enter(view, start, ray.direction, far);
+    const double far = start.norm() + s.hullOf(element).reach() + s.radiusOf(element);
+    double t = enter(view, s.radiusOf(element), start, ray.direction, far);
     if (t == 0) {
-      t = 2 * far - enter(view, start + 2 * far * ray.direction, -ray.direction, 2 * far);
+      t = 2 * far -
+          enter(view, s.radiusOf(element), start + 2 * far * ray.direction, -ray.direction, 2 * far);
       if (!(t >= 0)) t = 0;
     }
     RayHit hit;
@@ -30,7 +31,7 @@ struct HullRay<CollisionSurface> {
   }
 
  private:
-  static double enter(detail::ConvexView const& view, Eigen::Vector3d const& start,
+  static double enter(detail::ConvexView const& view, double radius, Eigen::Vector3d const& start,
                       Eigen::Vector3d const& direction, double end) {
     constexpr double never = std::numeric_limits<double>::infinity();
     double t = 0;
@@ -39,9 +40,9 @@ struct HullRay<CollisionSurface> {
       const detail::ConvexView point{at.data(), 1, Eigen::Matrix3d::Identity(), {0, 0, 0}, at[0], 0, 0};
       const double size = (view.middle - at[0]).norm() + view.radius;
       const detail::Gjk nearest(point, view, {0, 0, 0}, size);
-      const double d = nearest.overlapping ? 0 : nearest.difference.norm();
+      const double toCore = nearest.overlapping ? 0 : nearest.difference.norm(), d = toCore - radius;
       if (d <= 1e-12 * size) return t;
-      const double rate = nearest.difference.dot(direction) / d;
+      const double rate = nearest.difference.dot(direction) / toCore;
       if (!(rate * (end - t) >= d)) return never;
       t += d / rate;
     }

@@ -59,7 +59,7 @@ struct LocalMinDistance {
   }
   /// Neither lines nor triangles are nearest to triangles inside both.
   static bool compares(CollisionSurface const& a, CollisionSurface const& b) {
-    return a.corners() + b.corners() <= 4;
+    return a.leastCorners() + b.leastCorners() <= 4;
   }
 
   template <Shape A, Shape B>
@@ -71,9 +71,9 @@ struct LocalMinDistance {
       const double far = reach() + pair.proximity() + pair.thickness();
       if (!closest || closest->squaredDistance > far * far) return std::nullopt;
       const Eigen::Vector3d between = closest->pointB - closest->pointA;
-      if (!isLocalMinimum(pair.a, pair.elementA, between) || !isLocalMinimum(pair.b, pair.elementB, -between))
-        return std::nullopt;
       Contact contact = places_of(pair, *closest);
+      if (!isLocalMinimum(pair.a, contact.a, between) || !isLocalMinimum(pair.b, contact.b, -between))
+        return std::nullopt;
       set_normal(contact, pair, contact_direction(a, b, *closest));
       contact.limit = contactDistance + pair.proximity();
       return contact;
@@ -82,9 +82,10 @@ struct LocalMinDistance {
   }
 
  private:
-  bool isLocalMinimum(CollisionSurface const& s, int element, Eigen::Vector3d const& d) const {
-    return !filterIntersection || useLMDFilters ||
-           cones[std::size_t(s.number)].hold(s, element, d, {angleCone, coneFactor});
+  bool isLocalMinimum(CollisionSurface const& s, ContactSide const& side, Eigen::Vector3d const& d) const {
+    if (!filterIntersection || useLMDFilters) return true;
+    if (s.shape == Shape::capsule) return s.isLocalMinimum(side.element, side.vertices, d, s.coneAlong);
+    return cones[std::size_t(s.number)].hold(s, side.element, d, {angleCone, coneFactor});
   }
 };
 

@@ -18,11 +18,18 @@ SINEW_HD bool is_local_minimum(Surface const& s, int element, std::array<int, 3>
   auto towards = [&](Eigen::Vector3d const& direction) {
     return d.dot(direction) > cone * d.norm() * direction.norm();
   };
+  // a thinner capsule need not be nearer where its axis is
+  auto isAsThick = [&]([[maybe_unused]] int neighbour) {
+    if constexpr (requires { s.radiusAround; })
+      return s.shape != Shape::capsule || s.radiusAround[std::size_t(neighbour)] >= s.radiusOf(element);
+    else
+      return true;
+  };
   auto at = [&s](int vertex) -> Eigen::Vector3d const& { return s.position[std::size_t(vertex)]; };
   if (vertices[1] < 0) {
     const auto v = std::size_t(vertices[0]);
     for (int k = s.firstAround[v]; k < s.firstAround[v + 1]; ++k)
-      if (towards(at(s.around[std::size_t(k)]) - at(vertices[0]))) return false;
+      if (isAsThick(k) && towards(at(s.around[std::size_t(k)]) - at(vertices[0]))) return false;
     return true;
   }
   // into the triangle that an edge has with a corner
@@ -32,7 +39,7 @@ SINEW_HD bool is_local_minimum(Surface const& s, int element, std::array<int, 3>
     return towards(direction - (direction.dot(edge) / (square > 1e-300 ? square : 1e-300)) * edge);
   };
   auto const& e = s.elements[std::size_t(element)];
-  if (s.shape == Shape::line) {
+  if (skeleton(s.shape) == Shape::line) {
     if (s.beside.empty()) return true;
     for (const int corner : s.beside[std::size_t(element)])
       if (corner >= 0 && intoTriangle(e[0], e[1], corner)) return false;

@@ -32,10 +32,12 @@ struct MovedPrimitive {
     }
   }
   std::size_t vertex(std::size_t c) const { return std::size_t(surface.elements[std::size_t(element)][c]); }
-  double size() const { return isHull ? surface.hull->radius() : 0; }
+  double size() const { return isHull ? surface.hullOf(element).radius() + surface.radiusOf(element) : 0; }
+  /// No point is farther from the centre [m].
+  double reach() const { return surface.hullOf(element).reach() + surface.radiusOf(element); }
   ConvexView view(V const& origin) const {
     if constexpr (isHull)
-      return convex_view(PosedHull{*surface.hull, {corners[0], orientation}}, origin);
+      return convex_view(PosedHull{surface.hullOf(element), {corners[0], orientation}}, origin);
     else
       return convex_view(corners, origin);
   }
@@ -48,7 +50,7 @@ struct MovedPrimitive {
   /// No point goes faster along n [m/s].
   double fastestAlong(V const& n) const {
     double maximum = centreAlong(n);
-    if constexpr (isHull) maximum += surface.spin[vertex(0)].norm() * surface.hull->reach();
+    if constexpr (isHull) maximum += surface.spin[vertex(0)].norm() * reach();
     return maximum;
   }
 };
@@ -108,8 +110,8 @@ struct TriangleAround {
   }
 };
 
-/// A place on a primitive as a side of a contact; what touches a sphere of a rigid does so on its skin, and
-/// the thickness of the contact is without its radius.
+/// A place on a primitive as a side of a contact; what touches a sphere or a hull with a radius does so on
+/// the skin of the rigid, and the thickness of the contact is without its radius.
 template <Shape S>
 void place_side(ContactSide& side, MovedPrimitive<S> const& p, Eigen::Vector3d const& at,
                 Feature const& feature, Eigen::Vector3d const& outwards, double& thickness) {
@@ -117,8 +119,10 @@ void place_side(ContactSide& side, MovedPrimitive<S> const& p, Eigen::Vector3d c
     side.element = p.element;
     side.vertices = {int(p.vertex(0)), -1, -1};
     side.weights = {1, 0, 0};
-    side.lever = p.orientation.conjugate() * (at - p.corners[0]);
+    const double radius = p.surface.radiusOf(p.element);
+    side.lever = p.orientation.conjugate() * (at + radius * outwards - p.corners[0]);
     side.feature = feature;
+    thickness -= radius;
   } else {
     set_side<S>(side, p.surface, p.element, weights_at(p.corners, at, feature));
     if (!p.surface.rigid) return;

@@ -28,15 +28,23 @@ struct PrimitivePair {
   int elementA, elementB;
   double dt;
   double cone = CollisionSurface::leastCone;  // for isLocalMinimum
+  int firstA = 0, firstB = 0;                 // the first of their corners: that of an end of a capsule
 
-  SINEW_HD auto cornersA() const {
-    return a.template corner<std::size_t(corners_of(A))>(a.position, elementA);
-  }
-  SINEW_HD auto cornersB() const {
-    return b.template corner<std::size_t(corners_of(B))>(b.position, elementB);
-  }
+  SINEW_HD auto cornersA() const { return corners<A>(a, elementA, firstA); }
+  SINEW_HD auto cornersB() const { return corners<B>(b, elementB, firstB); }
   SINEW_HD double thickness() const { return a.radiusOf(elementA) + b.radiusOf(elementB); }
   SINEW_HD double proximity() const { return a.settings.proximity + b.settings.proximity; }
+
+ private:
+  template <Shape S, class Surface>
+  SINEW_HD static auto corners(Surface const& s, int element, [[maybe_unused]] int first) {
+    constexpr auto n = std::size_t(corners_of(S));
+    if constexpr (S == Shape::point && std::is_same_v<Surface, CollisionSurface>)
+      return std::array<Eigen::Vector3d, 1>{
+          s.position[std::size_t(s.elements[std::size_t(element)][std::size_t(first)])]};
+    else
+      return s.template corner<n>(s.position, element);
+  }
 };
 
 namespace detail {
@@ -53,12 +61,13 @@ namespace detail {
 // where no corner has a weight, which is so for numbers that are not finite, there is no vertex on a GPU
 SINEW_ANY_SIDE
 template <Shape S, class Surface>
-SINEW_HD void set_side(ContactSide& side, Surface const& s, int element, Eigen::Vector3d const& weights) {
+SINEW_HD void set_side(ContactSide& side, Surface const& s, int element, Eigen::Vector3d const& weights,
+                       int first = 0) {
   side.element = element;
   int n = 0;
   for (std::size_t c = 0; c < std::size_t(corners_of(S)); ++c)
     if (weights[Eigen::Index(c)] > 0) {
-      side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][c];
+      side.vertices[std::size_t(n)] = s.elements[std::size_t(element)][std::size_t(first) + c];
       side.weights[std::size_t(n++)] = weights[Eigen::Index(c)];
     }
   if constexpr (std::is_same_v<Surface, CollisionSurface>)
@@ -78,6 +87,24 @@ SINEW_HD Eigen::Vector3d outer_normal(Surface const& s, std::array<Eigen::Vector
         return n / length;
     }
   return {0, 0, 0};
+}
+
+// Whether no neighbour is nearer to the other primitive in the direction d. What lies along a capsule,
+// nearly, meets both of its ends, and a face both, however askew it stands.
+SINEW_ANY_SIDE
+template <Shape S, class Surface, std::size_t N>
+SINEW_HD bool is_nearest(Surface const& s, int element, std::array<int, 3> const& vertices,
+                         Eigen::Vector3d const& d,
+                         [[maybe_unused]] std::array<Eigen::Vector3d, N> const& other, double cone) {
+  if constexpr (S == Shape::point && std::is_same_v<Surface, CollisionSurface>)
+    if (s.shape == Shape::capsule) {
+      cone = CollisionSurface::coneAlong;
+      if constexpr (N == 3) {
+        const Eigen::Vector3d n = (other[1] - other[0]).cross(other[2] - other[0]);
+        if (n.cross(d).norm() <= 1e-9 * n.norm() * d.norm()) return true;
+      }
+    }
+  return s.isLocalMinimum(element, vertices, d, cone);
 }
 
 }  // namespace detail
@@ -159,8 +186,8 @@ template <Shape A, Shape B, class SA, class SB>
 SINEW_HD Contact places_of(PrimitivePair<A, B, SA, SB> const& pair, ClosestPoints<double> const& closest) {
   Contact contact;
   contact.start = closest.pointB - closest.pointA;
-  detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA);
-  detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB);
+  detail::set_side<A>(contact.a, pair.a, pair.elementA, closest.weightsA, pair.firstA);
+  detail::set_side<B>(contact.b, pair.b, pair.elementB, closest.weightsB, pair.firstB);
   return contact;
 }
 /// Its normal, and with that the distance between surfaces: what touches a sphere or a thick rigid does so on
@@ -195,8 +222,9 @@ SINEW_HD bool find_contact(PrimitivePair<A, B, SA, SB> const& pair, ShapeCorners
   // a point has one nearest place, and would be stopped by the edges inside a floor that it slides on
   constexpr bool ofPoint = std::tuple_size_v<ShapeCorners<A>> == 1 || std::tuple_size_v<ShapeCorners<B>> == 1;
   const double cone = ofPoint ? CollisionSurface::leastCone : pair.cone;
-  if (onlyLocalMinima && (!pair.a.isLocalMinimum(pair.elementA, contact.a.vertices, between, cone) ||
-                          !pair.b.isLocalMinimum(pair.elementB, contact.b.vertices, -between, cone)))
+  if (onlyLocalMinima &&
+      (!detail::is_nearest<A>(pair.a, pair.elementA, contact.a.vertices, between, b, cone) ||
+       !detail::is_nearest<B>(pair.b, pair.elementB, contact.b.vertices, -between, a, cone)))
     return false;
   const Eigen::Vector3d outOfA = detail::outer_normal(pair.a, a, closest.weightsA, between),
                         outOfB = detail::outer_normal(pair.b, b, closest.weightsB, between);

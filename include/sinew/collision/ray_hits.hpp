@@ -28,6 +28,10 @@ struct RayHit {
 /// Where it enters the sphere, or leaves that in which it begins.
 RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, double radius);
 
+/// The same for what is within a radius of a segment, a capsule; the weights are those of the nearest place
+/// on the segment.
+RayHit ray_capsule(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double radius);
+
 /// Where it enters a hull, or leaves that in which it begins: of(ray, surface, element, end), up to the
 /// distance `end`. Declared here only: hull_ray.hpp, which needs libccd, defines it for who has hulls.
 template <class Hulls>
@@ -63,6 +67,49 @@ SINEW_ONCE RayHit ray_sphere(Ray const& ray, Eigen::Vector3d const& center, doub
   const double h = std::sqrt(half), t = along >= h ? along - h : along + h;
   if (!(t >= 0)) return {};
   return {t, {1, 0, 0}};
+}
+
+SINEW_ONCE RayHit ray_capsule(Ray const& ray, std::array<Eigen::Vector3d, 2> const& p, double radius) {
+  // the part of the line in the capsule is from the first to the last place in one of its two balls or its
+  // cylinder, as all of them are convex and so is their union
+  constexpr double never = std::numeric_limits<double>::infinity();
+  double first = never, last = -never;
+  auto include = [&](double from, double to) {
+    if (from <= to) first = std::min(first, from), last = std::max(last, to);
+  };
+  for (Eigen::Vector3d const& end : p) {
+    const Eigen::Vector3d d = end - ray.origin;
+    const double along = d.dot(ray.direction);
+    const double half = radius * radius - (d - along * ray.direction).squaredNorm();
+    if (half >= 0) include(along - std::sqrt(half), along + std::sqrt(half));
+  }
+  const Eigen::Vector3d axis = p[1] - p[0];
+  const double length = axis.norm();
+  if (length > 0) {
+    const Eigen::Vector3d u = axis / length, d = ray.origin - p[0];
+    const double rise = ray.direction.dot(u), start = d.dot(u);
+    const Eigen::Vector3d across = ray.direction - rise * u, away = d - start * u;
+    double from = -never, to = never;
+    if (const double square = across.squaredNorm(); square > 1e-24) {
+      const double middle = -across.dot(away) / square;
+      const double half = (radius * radius - (away + middle * across).squaredNorm()) / square;
+      from = middle - std::sqrt(std::max(0.0, half)), to = middle + std::sqrt(std::max(0.0, half));
+      if (half < 0) to = -never;
+    } else if (away.norm() > radius) {
+      to = -never;
+    }
+    if (rise != 0) {
+      const auto [low, high] = std::minmax(-start / rise, (length - start) / rise);
+      from = std::max(from, low), to = std::min(to, high);
+    } else if (start < 0 || start > length) {
+      to = -never;
+    }
+    include(from, to);
+  }
+  const double t = first >= 0 ? first : last;
+  if (!(t >= 0) || !(first <= last)) return {};
+  const double s = length > 0 ? std::clamp((ray.at(t) - p[0]).dot(axis) / (length * length), 0.0, 1.0) : 0.0;
+  return {t, {1 - s, s, 0}};
 }
 
 SINEW_ONCE RayHit ray_point(Ray const& ray, Eigen::Vector3d const& point, double tolerance) {

@@ -40,15 +40,12 @@ struct SphereCollisionModel {
 
   void init(InitContext<D> const& context) {
     const std::size_t n = context.rest.size();
-    if (listRadius.size() > n)
-      throw Error(context.where,
-                  text(component_name<SphereCollisionModel>(),
-                       ": listRadius has ",
-                       listRadius.size(),
-                       " entries for ",
-                       n,
-                       " points; give one for each, or fewer"));
-    listRadius.resize(listRadius.empty() ? 0 : n, radius);
+    fill_up(listRadius,
+            n,
+            radius,
+            "listRadius",
+            "points",
+            text(context.where, ": ", component_name<SphereCollisionModel>()));
     surface.elements = points_of(context.topology, n);
     surface.radius = listRadius;
     if (surface.radius.empty()) surface.radius.assign(n, radius);

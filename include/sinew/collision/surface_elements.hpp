@@ -37,9 +37,15 @@ namespace sinew::detail {
 // The sign of its volume: that of the determinant of its sides from a corner, or of the lines between the
 // centres of opposite faces. Elements with a corner that has no position are left as they are.
 template <std::size_t N>
-bool is_inside_out(std::array<Index, N> const& e, std::span<Eigen::Vector3d const> positions) {
+bool is_inside_out(std::array<Index, N> const& element, std::span<Eigen::Vector3d const> positions) {
+  const auto e = [&] {
+    if constexpr (N == 4)
+      return element;
+    else
+      return as_hexahedron(element);
+  }();
   Eigen::Matrix3d sides = Eigen::Matrix3d::Zero();
-  for (std::size_t k = 0; k < N; ++k) {
+  for (std::size_t k = 0; k < e.size(); ++k) {
     if (e[k] < 0 || std::size_t(e[k]) >= positions.size()) return false;
     const Eigen::Vector3d x = positions[std::size_t(e[k])] - positions[std::size_t(e[0])];
     if constexpr (N == 4) {
@@ -58,8 +64,10 @@ std::vector<std::array<Index, N>> oriented_outwards(std::span<std::array<Index, 
     if (is_inside_out(e, positions)) {
       if constexpr (N == 4)
         std::swap(e[2], e[3]);
+      else if constexpr (N == 5)
+        std::swap(e[1], e[3]);
       else
-        std::rotate(e.begin(), e.begin() + 4, e.end());
+        std::rotate(e.begin(), e.begin() + N / 2, e.end());
     }
   return all;
 }
@@ -81,8 +89,10 @@ SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
     return std::array<PrimitiveCorners, 2>{{{q[0], q[1], q[2]}, {q[0], q[2], q[3]}}};
   };
   const auto tetrahedra = detail::oriented_outwards<4>(t.tetrahedra, positions);
-  const auto hexahedra = detail::oriented_outwards<8>(t.hexahedra, positions);
-  const Border border = border_of(tetrahedra, hexahedra);
+  const Border border = border_of(tetrahedra,
+                                  detail::oriented_outwards<8>(t.hexahedra, positions),
+                                  detail::oriented_outwards<5>(t.pyramids, positions),
+                                  detail::oriented_outwards<6>(t.prisms, positions));
   all.assign(border.triangles.begin(), border.triangles.end());
   for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));
   for (Quad const& q : border.quads) {

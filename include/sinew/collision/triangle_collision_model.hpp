@@ -9,7 +9,8 @@ namespace sinew {
 struct CollisionTriangles {
   static constexpr std::string_view className = "TriangleCollisionModel";
   static constexpr std::string_view aliases =
-      "Triangle TriangleModel TriangleMeshModel TriangleSetModel TTriangleModel";
+      "Triangle TriangleModel TriangleMeshModel TriangleSetModel TTriangleModel TriangleOctreeCollisionModel "
+      "TriangleOctreeModel TriangleOctree";
   static constexpr std::string_view noun = "triangle";
   static constexpr Shape shape = Shape::triangle;
 

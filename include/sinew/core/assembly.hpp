@@ -67,7 +67,7 @@ struct MultiMappedDofs {
  private:
   template <class F, std::size_t... K>
   void expandParts(int point, F& f, std::index_sequence<K...>) const {
-    (expandPart(mapping.parts[K], std::get<K>(parents), point, f), ...);
+    (expandPart(mapping.part(std::integral_constant<std::size_t, K>{}), std::get<K>(parents), point, f), ...);
   }
   template <class PartMapping, class P, class F>
   static void expandPart(PartMapping const& part, P const& parent, int point, F& f) {

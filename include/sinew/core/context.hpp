@@ -20,6 +20,15 @@ struct FinerCells {
   std::span<Index const> parents{};
 };
 
+/// Cells of half the length of those one level above: the parts of a hexahedron of a grid over a surface.
+/// They have points of their own, which cells share where they are joined.
+struct CellLevel {
+  std::vector<Hexahedron> hexahedra{};
+  std::vector<Index> parents{};            // the cell above, or the hexahedron, of which each is an eighth
+  std::vector<int> octants{};              // the corner of that at which it lies
+  std::vector<double> fill{}, massFill{};  // the part that counts as filled, for its stiffness and its mass
+};
+
 /// Elements over the points of one node, as components see them at init. Empty where there is no topology. A
 /// topology that has to be made first offers generate(where), which init calls before all else. One whose
 /// elements may be removed while the scene runs offers edit(), its ElementLists.
@@ -30,6 +39,8 @@ struct TopologyView {
   std::span<Quad const> quads{};
   std::span<Tetrahedron const> tetrahedra{};
   std::span<Hexahedron const> hexahedra{};
+  std::span<Pyramid const> pyramids{};
+  std::span<Prism const> prisms{};
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
   // of a grid of cells whose points are those of the state: where they lie before the state is moved
   std::span<Eigen::Vector3d const> places{};
@@ -37,6 +48,8 @@ struct TopologyView {
   // and its mass; empty where all are
   std::span<double const> fill{}, massFill{};
   FinerCells finer{};
+  std::span<CellLevel const>
+      levels{};        // of a grid over a surface: halves of the hexahedra, halves of these...
   bool grows = false;  // it may be without elements: some may come while the scene runs
 };
 
@@ -52,6 +65,8 @@ struct InitContext {
   /// Where the points of the body are at rest [m] on which the values of this state lie, for a component that
   /// asks for it by `overBody`; empty where the topology is over the points of this state.
   std::span<Eigen::Vector3d const> body{};
+  /// The triangles over the points that a mapping moves, also those of a visual model, for that mapping.
+  std::span<Triangle const> faces{};
 
   /// Where a point of the topology is at rest [m].
   Eigen::Vector3d place(Index i) const {

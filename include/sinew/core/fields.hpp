@@ -55,6 +55,8 @@ enum class Of {
   triangles,
   quads,
   hexahedra,
+  pyramids,
+  prisms,
   lines,     // elements of one dimension,
   surfaces,  // two,
   volumes,   // three,
@@ -170,11 +172,11 @@ namespace detail {
 
 // "name<first, second, third>"; what a component lacks of these is empty
 inline std::string full_name(std::string_view name, std::string_view first = {}, std::string_view second = {},
-                             std::string_view third = {}) {
+                             std::string_view third = {}, std::string_view fourth = {}) {
   std::string all(name);
   if (first.empty()) return all;
   all += text('<', first);
-  for (const std::string_view next : {second, third})
+  for (const std::string_view next : {second, third, fourth})
     if (!next.empty()) all += text(", ", next);
   return all + '>';
 }
@@ -186,9 +188,20 @@ template <class C>
 std::string component_name() {
   if constexpr (requires {
                   typename C::In;
+                  typename C::In2;
                   typename C::Out;
                   typename C::Parents;
                 })
+    return detail::full_name(C::className,
+                             data_types_name<typename C::In>::value,
+                             data_types_name<typename C::In2>::value,
+                             data_types_name<typename C::Out>::value,
+                             C::Parents::name());
+  else if constexpr (requires {
+                       typename C::In;
+                       typename C::Out;
+                       typename C::Parents;
+                     })
     return detail::full_name(C::className,
                              data_types_name<typename C::In>::value,
                              data_types_name<typename C::Out>::value,

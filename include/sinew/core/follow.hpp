@@ -227,6 +227,10 @@ SINEW_ONCE Renumbering ListsThatFollow::ofValues(Of what, std::size_t size) cons
       return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
     case Of::hexahedra:
       return change.topology.of(ElementKind::hexahedron);
+    case Of::pyramids:
+      return change.topology.of(ElementKind::pyramid);
+    case Of::prisms:
+      return change.topology.of(ElementKind::prism);
     default:
       return change.topology.ofDimension(change.dimensionOf(what), size);
   }

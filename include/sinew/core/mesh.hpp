@@ -7,6 +7,8 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
+#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -17,6 +19,8 @@ using Triangle = std::array<Index, 3>;
 using Quad = std::array<Index, 4>;
 using Tetrahedron = std::array<Index, 4>;
 using Hexahedron = std::array<Index, 8>;
+using Pyramid = std::array<Index, 5>;  // its base, then its apex
+using Prism = std::array<Index, 6>;    // a triangle, then the opposite one: VTK's wedge
 
 /// Points and the elements over them, as files hold them. Node order of elements is VTK's (and Gmsh's).
 struct Mesh {
@@ -26,9 +30,47 @@ struct Mesh {
   std::vector<Quad> quads{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
+  std::vector<Pyramid> pyramids{};
+  std::vector<Prism> prisms{};
 
   bool operator==(Mesh const&) const = default;
 };
+
+/// The kinds of elements that a topology has, in the order in which messages and changes list them.
+enum class ElementKind { edge, triangle, quad, tetrahedron, hexahedron, pyramid, prism };
+inline constexpr int element_kinds = 7;
+constexpr std::string_view element_kind_name(int kind) {
+  constexpr std::array<std::string_view, element_kinds> names{
+      "edge", "triangle", "quad", "tetrahedron", "hexahedron", "pyramid", "prism"};
+  return names[std::size_t(kind)];
+}
+constexpr int dimension_of_kind(int kind) { return kind == 0 ? 1 : kind < 3 ? 2 : 3; }
+
+/// f(kind, list) for each list of elements of a mesh, or of what has lists of these names; not all have
+/// pyramids and prisms.
+template <class Lists, class F>
+constexpr void for_each_kind(Lists&& lists, F&& f) {
+  f(0, lists.edges), f(1, lists.triangles), f(2, lists.quads), f(3, lists.tetrahedra), f(4, lists.hexahedra);
+  if constexpr (requires { lists.prisms; }) f(5, lists.pyramids), f(6, lists.prisms);
+}
+/// The highest dimension of which there are elements; 0 for none.
+template <class Lists>
+constexpr int dimension_of(Lists const& lists) {
+  int highest = 0;
+  for_each_kind(lists, [&](int kind, auto const& list) {
+    if (!list.empty() && dimension_of_kind(kind) > highest) highest = dimension_of_kind(kind);
+  });
+  return highest;
+}
+/// f(kind, list) for each list of elements of the highest dimension that there are; of edges where there are
+/// none.
+template <class Lists, class F>
+constexpr void for_each_highest(Lists const& lists, F&& f) {
+  const int dimension = dimension_of(lists) > 0 ? dimension_of(lists) : 1;
+  for_each_kind(lists, [&](int kind, auto const& list) {
+    if (dimension_of_kind(kind) == dimension) f(kind, list);
+  });
+}
 
 namespace detail {
 template <class Elements>
@@ -51,11 +93,9 @@ void check_indices(std::string_view where, std::string_view kind, Elements const
 /// The same of all elements of a mesh, or of what has lists of these names.
 template <class Lists>
 void check_elements(std::string_view where, Lists const& lists, std::size_t points) {
-  check_indices(where, "edge", lists.edges, points);
-  check_indices(where, "triangle", lists.triangles, points);
-  check_indices(where, "quad", lists.quads, points);
-  check_indices(where, "tetrahedron", lists.tetrahedra, points);
-  check_indices(where, "hexahedron", lists.hexahedra, points);
+  for_each_kind(lists, [&](int kind, auto const& list) {
+    check_indices(where, element_kind_name(kind), list, points);
+  });
 }
 }  // namespace detail
 

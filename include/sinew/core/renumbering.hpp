@@ -131,25 +131,21 @@ struct Renumbering {
   }
 };
 
-/// The kinds of elements that a topology has, in the order in which messages and changes list them.
-enum class ElementKind { edge, triangle, quad, tetrahedron, hexahedron };
-inline constexpr int element_kinds = 5;
-constexpr std::string_view element_kind_name(int kind) {
-  constexpr std::array<std::string_view, element_kinds> names{
-      "edge", "triangle", "quad", "tetrahedron", "hexahedron"};
-  return names[std::size_t(kind)];
-}
-
 /// Numbers of elements of a topology, kind by kind, and of its points.
 struct ElementNumbers {
-  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, points{};
+  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, pyramids{}, prisms{}, points{};
 
   std::array<std::vector<Index> const*, element_kinds> lists() const {
-    return {&edges, &triangles, &quads, &tetrahedra, &hexahedra};
+    return {&edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms};
+  }
+  std::vector<Index>& of(int kind) {
+    return *std::array{
+        &edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms}[std::size_t(kind)];
   }
 };
 
-/// Elements that come to a topology, in the numbers of its points with those that come behind them.
+/// Elements that come to a topology, in the numbers of its points with those that come behind them; pyramids
+/// and prisms do not.
 struct AddedElements {
   std::vector<Origin> points{};  // where they come, between points that are there
   std::vector<Edge> edges{};
@@ -167,7 +163,7 @@ struct AddedElements {
   /// f(kind, list) for each kind.
   template <class F>
   void forEach(F&& f) const {
-    f(0, edges), f(1, triangles), f(2, quads), f(3, tetrahedra), f(4, hexahedra);
+    for_each_kind(*this, f);
   }
 };
 
@@ -179,15 +175,15 @@ struct ElementLists {
   std::vector<Quad>* quads = nullptr;
   std::vector<Tetrahedron>* tetrahedra = nullptr;
   std::vector<Hexahedron>* hexahedra = nullptr;
+  std::vector<Pyramid>* pyramids = nullptr;
+  std::vector<Prism>* prisms = nullptr;
 
   /// f(kind, list) for each kind there is.
   template <class F>
   void forEach(F&& f) const {
-    if (edges) f(0, *edges);
-    if (triangles) f(1, *triangles);
-    if (quads) f(2, *quads);
-    if (tetrahedra) f(3, *tetrahedra);
-    if (hexahedra) f(4, *hexahedra);
+    for_each_kind(*this, [&](int kind, auto* list) {
+      if (list) f(kind, *list);
+    });
   }
 };
 
@@ -248,15 +244,21 @@ SINEW_ONCE Renumbering Renumbering::grown(std::size_t stay, std::vector<Origin> 
 
 SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t size) const {
   if (dimension == 0) return {};
-  constexpr int simplex[] = {0, 1, 3}, other[] = {-1, 2, 4};
-  // (of bodies with others besides none is cut)
-  if (Renumbering const& only = elements[std::size_t(simplex[dimension - 1])]; !only.come.empty())
-    return only;
+  constexpr int simplex[] = {0, 1, 3};
   Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
-  if (dimension == 1) return simplices;
-  Renumbering const& others = elements[std::size_t(other[dimension - 1])];
-  const std::size_t first = simplices.now.size(), count = others.now.size();
-  const std::size_t rest = size > first ? size - first : 0;
+  // (of bodies with others besides none is cut)
+  if (dimension == 1 || !simplices.come.empty()) return simplices;
+  // the others one behind the other
+  Renumbering others;
+  std::size_t count = 0;
+  for (int kind = simplex[dimension - 1] + 1; kind < element_kinds; ++kind) {
+    if (dimension_of_kind(kind) != dimension) continue;
+    Renumbering const& more = elements[std::size_t(kind)];
+    for (const Index old : more.kept) others.kept.push_back(Index(count) + old);
+    if (!more.come.empty()) others = more;  // (nor do others come)
+    count += more.now.size();
+  }
+  const std::size_t first = simplices.now.size(), rest = size > first ? size - first : 0;
   if (first == 0 && rest == count && !others.come.empty()) return others;
   if (count == 0 || rest % count != 0) return simplices;
   std::vector<Index> kept = simplices.kept;
@@ -267,9 +269,10 @@ SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t si
 }
 
 SINEW_ONCE int TopologyChange::dimension() const {
-  if (!elements[3].now.empty() || !elements[4].now.empty()) return 3;
-  if (!elements[1].now.empty() || !elements[2].now.empty()) return 2;
-  return elements[0].now.empty() ? 0 : 1;
+  int highest = 0;
+  for (int kind = 0; kind < element_kinds; ++kind)
+    if (!elements[std::size_t(kind)].now.empty()) highest = std::max(highest, dimension_of_kind(kind));
+  return highest;
 }
 
 }  // namespace sinew

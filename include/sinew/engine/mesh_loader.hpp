@@ -8,6 +8,7 @@
 #include <sinew/io/read_obj.hpp>
 #include <sinew/io/read_stl.hpp>
 #include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/border.hpp>
 #include <sinew/topology/hexahedra.hpp>
 
 #include <Eigen/LU>
@@ -97,6 +98,8 @@ struct MeshLoader {
   std::vector<Quad> quads{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
+  std::vector<Pyramid> pyramids{};
+  std::vector<Prism> prisms{};
   std::vector<Eigen::Vector2d> texcoords{};
   std::vector<Triangle> textureTriangles{};
   std::vector<Quad> textureQuads{};
@@ -114,6 +117,9 @@ struct MeshLoader {
         field("quads", &L::quads, "", "four points each, in the order around the quad"),
         field("tetrahedra", &L::tetrahedra, "", "four points each").also("tetras"),
         field("hexahedra", &L::hexahedra, "", "eight points each, in VTK's order").also("hexas"),
+        field("pyramids", &L::pyramids, "", "five points each: those of the base, and the apex"),
+        field("prisms", &L::prisms, "", "six points each: those of a triangle, and of the opposite one")
+            .also("pentas pentahedra"),
         field("texcoords", &L::texcoords, "", "places in a texture; none where the file has none"),
         field("textureTriangles", &L::textureTriangles, "", "texcoords of the corners of each triangle"),
         field("textureQuads", &L::textureQuads, "", "texcoords of the corners of each quad"),
@@ -152,12 +158,16 @@ struct MeshLoader {
     if (mirrors) detail::turn_volumes(mesh);
     if (mirrors != flipNormals)
       detail::turn_faces(mesh.triangles, mesh.quads), detail::turn_faces(looks.triangles, looks.quads);
-    if (createSubelements) {
-      constexpr std::size_t ofTetrahedron[4][3] = {{1, 2, 3}, {0, 3, 2}, {0, 1, 3}, {0, 2, 1}};
-      constexpr std::size_t ofTriangle[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-      constexpr std::size_t ofQuad[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+    if (createSubelements) {  // in the order of SOFA, which numbers the edges
+      constexpr std::size_t ofTetrahedron[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+      constexpr std::size_t ofTriangle[3][2] = {{1, 2}, {2, 0}, {0, 1}};
+      constexpr std::size_t ofQuad[4][2] = {{1, 2}, {2, 3}, {3, 0}, {0, 1}};
       detail::add_sides(mesh.quads, mesh.hexahedra, hexahedronFaces);
+      detail::add_sides(mesh.quads, mesh.pyramids, pyramidQuads);
+      detail::add_sides(mesh.quads, mesh.prisms, prismQuads);
       detail::add_sides(mesh.triangles, mesh.tetrahedra, ofTetrahedron);
+      detail::add_sides(mesh.triangles, mesh.pyramids, pyramidTriangles);
+      detail::add_sides(mesh.triangles, mesh.prisms, prismTriangles);
       detail::add_sides(mesh.edges, mesh.quads, ofQuad);
       detail::add_sides(mesh.edges, mesh.triangles, ofTriangle);
     }
@@ -173,6 +183,8 @@ struct MeshLoader {
     quads = std::move(mesh.quads);
     tetrahedra = std::move(mesh.tetrahedra);
     hexahedra = std::move(mesh.hexahedra);
+    pyramids = std::move(mesh.pyramids);
+    prisms = std::move(mesh.prisms);
     texcoords = std::move(looks.texcoords);
     textureTriangles = std::move(looks.triangles);
     textureQuads = std::move(looks.quads);
@@ -229,6 +241,8 @@ SINEW_ONCE std::vector<Eigen::Vector3d> point_normals(Mesh const& mesh) {
 SINEW_ONCE void turn_volumes(Mesh& mesh) {
   for (auto& t : mesh.tetrahedra) std::swap(t[2], t[3]);
   for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
+  for (auto& p : mesh.pyramids) std::swap(p[1], p[3]);
+  for (auto& p : mesh.prisms) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
 }
 SINEW_ONCE void turn_faces(std::vector<Triangle>& triangles, std::vector<Quad>& quads) {
   for (auto& t : triangles) std::reverse(t.begin(), t.end());

@@ -53,6 +53,22 @@ struct Hexa2Tetra {
     return hexahedra_to_tetrahedra(hexahedra, cut, 2);
   }
 };
+/// Two prisms for each hexahedron, cut between its edges 0-3 and 5-6 as in SOFA.
+struct Hexa2Prism {
+  using Elements = std::vector<Hexahedron>;
+  using Converted = std::vector<Prism>;
+  static constexpr std::string_view className = "Hexa2PrismTopologicalMapping", from = "hexahedra",
+                                    to = "prisms", purpose = "two prisms for each hexahedron";
+  static Converted convert(Elements const& hexahedra) {
+    Converted prisms;
+    prisms.reserve(2 * hexahedra.size());
+    for (Hexahedron const& h : hexahedra) {
+      prisms.push_back({h[0], h[5], h[1], h[3], h[6], h[2]});
+      prisms.push_back({h[0], h[4], h[5], h[3], h[7], h[6]});
+    }
+    return prisms;
+  }
+};
 struct Tetra2Triangle {
   using Elements = std::vector<Tetrahedron>;
   using Converted = std::vector<Triangle>;
@@ -163,13 +179,15 @@ struct TopologicalMapping {
       throw Error(at, error.what());
     }
     if (none) converted.clear();
-    if (flipNormals && Conversion::to != "tetrahedra")
+    if (flipNormals && Conversion::to != "tetrahedra" && Conversion::to != "prisms")
       for (auto& element : converted) std::reverse(element.begin(), element.end());
   }
 };
 
 /// Makes six tetrahedra of each hexahedron of another topology.
 using Hexa2TetraTopologicalMapping = TopologicalMapping<detail::Hexa2Tetra>;
+/// Makes two prisms of each hexahedron of another topology.
+using Hexa2PrismTopologicalMapping = TopologicalMapping<detail::Hexa2Prism>;
 /// Makes the triangles of the surface of the tetrahedra of another topology.
 using Tetra2TriangleTopologicalMapping = TopologicalMapping<detail::Tetra2Triangle>;
 /// Makes the quads of the surface of the hexahedra of another topology.

@@ -77,6 +77,11 @@ struct ConstantForceField {
     check_points(where, "indices", indices, points);
   }
 
+  /// Of the whole scene, before ranks have parts of it: the share of a point in a total stays what it is.
+  void shareOut() {
+    if (forces.empty() && !force && totalForce && size > 0) force = *totalForce / Real(size);
+  }
+
   std::size_t point(std::size_t i) const { return indices.empty() ? i : std::size_t(indices[i]); }
   /// Force on point(i).
   Deriv load(std::size_t i) const {

@@ -5,7 +5,7 @@
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/lists.hpp>
 #include <sinew/force/elasticity.hpp>
-#include <sinew/force/rotations.hpp>
+#include <sinew/force/hexahedron_rotation.hpp>
 
 #include <Eigen/LU>
 #include <algorithm>
@@ -16,17 +16,6 @@
 #include <vector>
 
 namespace sinew {
-
-/// How the rotation of a corotational hexahedron is found from A, its Jacobian in the centre, the mean edges.
-///   large    frame on the first two columns of A (Nesme, Payan, Faure 2005), as SOFA's "large"
-///   polar    rotation nearest to A, against the one nearest to A_rest, as SOFA's "polar"; that of `nearest`
-///            where cells are cubes
-///   small    none: linear elasticity
-///   nearest  rotation nearest to A A_rest^-1
-enum class HexahedronMethod { large, polar, small, nearest };
-inline constexpr std::array<std::string_view, 4> enum_names(HexahedronMethod) {
-  return {"large", "polar", "small", "nearest"};
-}
 
 /// Trilinear hexahedron of an isotropic material, corotational, with 2 x 2 x 2 Gauss points. With F the
 /// deformation gradient in a Gauss point and R the rotation of the element:
@@ -143,10 +132,7 @@ struct HexahedronFEM {
 
   /// Rest data of the element with rest positions x; a weight that is not positive tells of a bad shape.
   static Rest restOf(Coord const (&x)[8], Real mu, Real lambda, HexahedronMethod method) {
-    Mat3 frame = Mat3::Identity();
-    const Mat3 a = jacobian(x);
-    if (method == HexahedronMethod::large) frame = frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
-    if (method == HexahedronMethod::polar) frame = nearest_rotation(a);
+    const Mat3 a = hexahedron_jacobian<Real>(x), frame = hexahedron_rest_frame<Real>(method, a);
     Vec3 y[8], column[3][4];
     rotateBack(frame, x, y);
     columns(y, column);
@@ -164,16 +150,9 @@ struct HexahedronFEM {
   }
 
  private:
-  // Corners and Gauss points by three bits, of x, y and z; u and v are the other two directions than k.
-  static constexpr int corner(int bits) {
-    constexpr int vtk[8] = {0, 1, 3, 2, 4, 5, 7, 6};
-    return vtk[bits];
-  }
-  static constexpr int across(int k, int which) { return which == 0 ? (k == 0 ? 1 : 0) : (k == 2 ? 1 : 2); }
-  // end of the edge number uv of direction k
-  static constexpr int end(int k, int uv, int high) {
-    return corner((uv & 1) << across(k, 0) | (uv >> 1) << across(k, 1) | high << k);
-  }
+  static constexpr int corner(int bits) { return detail::hexahedron_corner(bits); }
+  static constexpr int across(int k, int which) { return detail::hexahedron_across(k, which); }
+  static constexpr int end(int k, int uv, int high) { return detail::hexahedron_end(k, uv, high); }
   static constexpr int columnOf(int k, int g) {
     return (g >> across(k, 0) & 1) | (g >> across(k, 1) & 1) << 1;
   }
@@ -192,16 +171,6 @@ struct HexahedronFEM {
       for (int uv = 0; uv < 4; ++uv) column[k][uv] = (y[end(k, uv, 1)] - y[end(k, uv, 0)]) * Real(0.5);
       mix(column[k]);
     }
-  }
-  // Jacobian in the centre
-  SINEW_INLINE static Mat3 jacobian(Coord const (&x)[8]) {
-    Mat3 a;
-    for (int k = 0; k < 3; ++k) {
-      Vec3 sum = x[end(k, 0, 1)] - x[end(k, 0, 0)];
-      for (int uv = 1; uv < 4; ++uv) sum += x[end(k, uv, 1)] - x[end(k, uv, 0)];
-      a.col(k) = sum * Real(0.125);
-    }
-    return a;
   }
   // y = R'(x - x_0)
   SINEW_INLINE static void rotateBack(Mat3 const& r, Coord const (&x)[8], Vec3 (&y)[8]) {
@@ -403,22 +372,8 @@ struct HexahedronFEM {
     return h;
   }
 
-  // rotation from the rest frame of the method to the world
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[8]) const {
-    Mat3 r;
-    if (method == HexahedronMethod::small) {
-      for (int c = 0; c < 9; ++c) r(c) = Real(c % 4 == 0 ? 1 : 0);
-      return r;
-    }
-    const Mat3 a = jacobian(x);
-    if (method == HexahedronMethod::large) return frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
-    if (method == HexahedronMethod::polar)
-      r = a;
-    else
-      for (int j = 0; j < 3; ++j)
-        for (int i = 0; i < 3; ++i)
-          r(i, j) = a(i, 0) * rest.center(0, j) + a(i, 1) * rest.center(1, j) + a(i, 2) * rest.center(2, j);
-    return nearest_rotation(r);
+    return hexahedron_rotation<Real>(method, rest.center, x);
   }
 };
 

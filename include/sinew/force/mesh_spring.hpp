@@ -11,7 +11,8 @@ namespace sinew {
 
 /// Springs between all pairs of points of each element of the topology, one kind after the other from edges
 /// to hexahedra; two points get one spring, of the first kind that joins them. Edges, triangles and quads
-/// that the topology does not list are those of its higher elements, as in SOFA's containers. A stiffness is
+/// that the topology does not list are those of its higher elements, as in SOFA's containers; pyramids and
+/// prisms have no other springs than these. A stiffness is
 /// a force per relative extension [N]: a spring of length L has stiffness / L [N/m].
 template <class D>
 struct MeshSpringForceField {
@@ -72,6 +73,8 @@ struct MeshSpringForceField {
       springs.addSome(t.quads, quad_edges, ks, kd);
       springs.addAll(t.tetrahedra, ks, kd);
       springs.addSome(t.hexahedra, hexahedron_edges, ks, kd);
+      springs.addSome(t.pyramids, pyramid_edges, ks, kd);
+      springs.addSome(t.prisms, prism_edges, ks, kd);
     }
     // the edges of the triangles of tetrahedra are those of the tetrahedra
     const double ts = trianglesStiffness.value_or(stiffness), td = trianglesDamping.value_or(damping);
@@ -85,6 +88,8 @@ struct MeshSpringForceField {
     } else {
       springs.addSome(t.hexahedra, hexahedron_edges, qs, qd);
       springs.addSome(t.hexahedra, hexahedron_face_diagonals, qs, qd);
+      springs.addSome(t.pyramids, pyramid_face_diagonals, qs, qd);
+      springs.addSome(t.prisms, prism_face_diagonals, qs, qd);
     }
     springs.addAll(
         t.tetrahedra, tetrahedraStiffness.value_or(stiffness), tetrahedraDamping.value_or(damping));

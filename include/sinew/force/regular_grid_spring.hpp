@@ -48,6 +48,7 @@ struct RegularGridSpringForceField {
 
   using Driver = typename SpringNetwork<D>::Driver;
   Driver driver{};
+  bool none = false;  // no spring
 
   void init(InitContext<D> const& context) {
     const std::string where = text(context.where, ": ", component_name<RegularGridSpringForceField>());
@@ -72,12 +73,14 @@ struct RegularGridSpringForceField {
       springs.addSome(t.hexahedra, hexahedron_face_diagonals, quads().stiffness, quads().damping);
       springs.addSome(t.hexahedra, hexahedron_diagonals, cubes().stiffness, cubes().damping);
     }
-    if (springs.empty())
-      throw Error(
-          where,
-          "there is no spring; give the node a regular grid of at least two points, or hexahedra, and "
-          "set a stiffness or damping");
+    none = springs.empty();
     springs.init(driver, elongationOnly);
+  }
+  /// The warning of init; empty for none.
+  std::string_view warning() const {
+    return none ? "there is no spring, so that it has no force; give the node a regular grid of at least two "
+                  "points, or hexahedra, and set a stiffness or damping"
+                : "";
   }
 
  private:

@@ -90,6 +90,11 @@ inline constexpr int hexahedron_edges[12][2] = {
     {0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}};
 inline constexpr int hexahedron_face_diagonals[12][2] = {
     {0, 2}, {1, 3}, {4, 6}, {5, 7}, {0, 5}, {1, 4}, {3, 6}, {2, 7}, {0, 7}, {3, 4}, {1, 6}, {2, 5}};
+inline constexpr int pyramid_edges[8][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}};
+inline constexpr int pyramid_face_diagonals[2][2] = {{0, 2}, {1, 3}};
+inline constexpr int prism_edges[9][2] = {
+    {0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}};
+inline constexpr int prism_face_diagonals[6][2] = {{0, 4}, {1, 3}, {1, 5}, {2, 4}, {2, 3}, {0, 5}};
 inline constexpr int hexahedron_diagonals[4][2] = {{0, 6}, {1, 7}, {2, 4}, {3, 5}};
 inline constexpr int hexahedron_faces[6][4] = {
     {0, 1, 2, 3}, {4, 5, 6, 7}, {0, 1, 5, 4}, {3, 2, 6, 7}, {0, 3, 7, 4}, {1, 2, 6, 5}};

@@ -129,6 +129,12 @@ struct TetrahedronFEM {
     return block;
   }
 
+  /// s in the axes of the world, of a material with these moduli.
+  Mat3 stress(Rest const& rest, Coord const (&x)[4], Real mu, Real lambda) const {
+    const Mat3 r = rotation(rest, x), e = strain(rest, r, x, r * rest.gradient);
+    return Real(2) * mu * e + lambda * (e(0, 0) + e(1, 1) + e(2, 2)) * Mat3::Identity();
+  }
+
   /// Rest data of the element with rest positions x; throws nothing, the caller has checked the volume.
   static Rest restOf(Coord const (&x)[4], Real mu, Real lambda, RotationMethod method) {
     using std::abs;
@@ -363,6 +369,26 @@ struct TetrahedronFEMForceField {
                   "plastic flow is not computed on a device; leave out plasticMaxThreshold, or take Vec3d");
     if (plasticStrain.size() != 6 * tetrahedra.size()) plasticStrain.assign(6 * tetrahedra.size(), 0);
     takePlasticStrain();
+  }
+
+  void addStress(InitContext<D> const& context, typename D::VecCoord const& x,
+                 std::vector<Eigen::Matrix3d>& stress) const
+  requires std::same_as<typename D::VecCoord, std::vector<typename D::Coord>>
+  {
+    auto const& tetrahedra = context.topology.tetrahedra;
+    const TetrahedronFEM<D> ofOne{method, plasticMaxThreshold > 0};
+    for (std::size_t e = 0; e < std::min(tetrahedra.size(), stress.size()); ++e) {
+      typename D::Coord atRest[4], now[4];
+      for (std::size_t k = 0; k < 4; ++k) {
+        atRest[k] = context.rest[std::size_t(tetrahedra[e][k])];
+        now[k] = x[std::size_t(tetrahedra[e][k])];
+      }
+      const LameModuli moduli = lame_moduli(one_or_each(youngModulus, e), poissonRatio);
+      auto rest = TetrahedronFEM<D>::restOf(atRest, Real(moduli.mu), Real(moduli.lambda), method);
+      if (6 * e + 6 <= plasticStrain.size())
+        for (std::size_t n = 0; n < 6; ++n) rest.plastic[n] = Real(plasticStrain[6 * e + n]);
+      stress[e] += ofOne.stress(rest, now, Real(moduli.mu), Real(moduli.lambda)).template cast<double>();
+    }
   }
 
  private:

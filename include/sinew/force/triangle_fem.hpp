@@ -92,6 +92,23 @@ struct TriangleFEM {
     return block;
   }
 
+  /// V s in the axes of the world.
+  Mat<Real, 3> volumeStress(Rest const& rest, Coord const (&x)[3]) const {
+    Tangent frame;
+    axes(rest, x, frame);
+    Real e[2][2];
+    strain(rest, frame, x, Real(1), e);
+    const Real pressure = rest.volumeLambda * (e[0][0] + e[1][1]);
+    Mat<Real, 3> s = Mat<Real, 3>::Zero();
+    for (int i = 0; i < 2; ++i)
+      for (int j = 0; j < 2; ++j) {
+        const Real sij = Real(2) * rest.volumeMu * e[i][j] + (i == j ? pressure : Real(0));
+        for (int r = 0; r < 3; ++r)
+          for (int c = 0; c < 3; ++c) s(r, c) += sij * frame.axes[i][r] * frame.axes[j][c];
+      }
+    return s;
+  }
+
   /// Rest data of the element with rest positions x and V mu = volume * mu.
   static Rest restOf(Coord const (&x)[3], Real thickness, Real mu, Real lambda) {
     const Vec3 a = x[1] - x[0], b = x[2] - x[0];
@@ -239,15 +256,40 @@ struct TriangleFEMForceField {
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < triangles.size(); ++e) {
       typename D::Coord x[3];
-      for (std::size_t k = 0; k < 3; ++k) x[k] = context.rest[std::size_t(triangles[e][k])] * Real(restScale);
-      const double E = one_or_each(youngModulus, e), nu = one_or_each(poissonRatio, e);
-      const LameModuli moduli = planeStrain ? lame_moduli(E, nu) : plane_stress_moduli(E, nu);
-      rest.push_back(TriangleFEM<D>::restOf(x, Real(thickness), Real(moduli.mu), Real(moduli.lambda)));
+      rest.push_back(restOf(context.rest, triangles[e], e, x));
       const Real longest = std::max({(x[1] - x[0]).norm(), (x[2] - x[0]).norm(), (x[2] - x[1]).norm()});
       if (!((x[1] - x[0]).cross(x[2] - x[0]).norm() > Real(1e-6) * longest * longest))
         throw Error(where, text("triangle ", e, " has no area; move or merge its points"));
     }
     driver.init(triangles, rest);
+  }
+
+  void addStress(InitContext<D> const& context, typename D::VecCoord const& x,
+                 std::vector<Eigen::Matrix3d>& stress) const
+  requires std::same_as<typename D::VecCoord, std::vector<typename D::Coord>>
+  {
+    auto const& triangles = context.topology.triangles;
+    for (std::size_t e = 0; e < std::min(triangles.size(), stress.size()); ++e) {
+      typename D::Coord atRest[3], now[3];
+      const auto rest = restOf(context.rest, triangles[e], e, atRest);
+      for (std::size_t k = 0; k < 3; ++k) now[k] = x[std::size_t(triangles[e][k])];
+      // V = V mu / mu
+      stress[e] += TriangleFEM<D>{method}.volumeStress(rest, now).template cast<double>() *
+                   (moduliOf(e).mu / double(rest.volumeMu));
+    }
+  }
+
+ private:
+  LameModuli moduliOf(std::size_t e) const {
+    const double E = one_or_each(youngModulus, e), nu = one_or_each(poissonRatio, e);
+    return planeStrain ? lame_moduli(E, nu) : plane_stress_moduli(E, nu);
+  }
+  // with the corners of the triangle without force
+  typename Driver::Rest restOf(typename D::VecCoord const& rest, Triangle const& triangle, std::size_t e,
+                               typename D::Coord (&x)[3]) const {
+    for (std::size_t k = 0; k < 3; ++k) x[k] = rest[std::size_t(triangle[k])] * Real(restScale);
+    const LameModuli moduli = moduliOf(e);
+    return TriangleFEM<D>::restOf(x, Real(thickness), Real(moduli.mu), Real(moduli.lambda));
   }
 };
 

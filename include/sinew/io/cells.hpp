@@ -40,10 +40,17 @@ enum : std::int64_t {
 /// nothing.
 std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Index const> p);
 
+/// Turns prisms of a VTK file whose first triangle is seen from outside counter-clockwise, as VTK's manual
+/// has it; those of many programs are the other way round.
+void orient_wedges(Mesh& mesh);
+
 }  // namespace sinew::io
 
 #if SINEW_DEFINES
 #include <sinew/core/error.hpp>
+
+#include <Eigen/Geometry>
+#include <algorithm>
 
 namespace sinew::io {
 
@@ -76,13 +83,14 @@ SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Ind
                             {4, 4},
                             {4, 4},
                             {8, 8},
-                            {8, 8}};
-  if (type == vtk_cell::wedge || type == vtk_cell::pyramid)
-    return "is a wedge or pyramid, which are not read; mesh with tetrahedra or hexahedra only";
-  if (type < 0 || type > vtk_cell::hexahedron)
+                            {8, 8},
+                            {6, 6},
+                            {5, 5}};
+  if (type < 0 || type > vtk_cell::pyramid)
     return text("is of VTK's cell type ",
                 type,
-                ", which is not read; convert the mesh to linear triangles, quads, tetrahedra or hexahedra");
+                ", which is not read; convert the mesh to linear triangles, quads, tetrahedra, hexahedra, "
+                "wedges or pyramids");
   const Size size = sizes[type];
   if (p.size() < size.minimum || p.size() > size.maximum)
     return text("has ",
@@ -119,10 +127,26 @@ SINEW_ONCE std::string add_vtk_cell(Mesh& mesh, std::int64_t type, std::span<Ind
     case vtk_cell::hexahedron:
       mesh.hexahedra.push_back({p[0], p[1], p[2], p[3], p[4], p[5], p[6], p[7]});
       break;
+    case vtk_cell::wedge:
+      mesh.prisms.push_back({p[0], p[1], p[2], p[3], p[4], p[5]});
+      break;
+    case vtk_cell::pyramid:
+      mesh.pyramids.push_back({p[0], p[1], p[2], p[3], p[4]});
+      break;
     default:
       break;
   }
   return {};
+}
+
+SINEW_ONCE void orient_wedges(Mesh& mesh) {
+  auto x = [&](Index i) -> Eigen::Vector3d const& { return mesh.positions[std::size_t(i)]; };
+  for (Prism& p : mesh.prisms) {
+    const Eigen::Vector3d up = x(p[3]) + x(p[4]) + x(p[5]) - x(p[0]) - x(p[1]) - x(p[2]),
+                          normal = (x(p[1]) - x(p[0])).cross(x(p[2]) - x(p[0])) +
+                                   (x(p[4]) - x(p[3])).cross(x(p[5]) - x(p[3]));
+    if (up.dot(normal) < 0) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
+  }
 }
 
 }  // namespace sinew::io

@@ -13,9 +13,9 @@ namespace sinew::io {
 Mesh parse_gmsh(std::string_view path, std::string_view content);
 
 /// Reads a Gmsh file (.msh), format 1, 2.0 to 2.2 or 4.1, ASCII. Points are in the order of the file,
-/// whatever their numbers; lines, triangles, quads, tetrahedra and hexahedra are read, point elements and all
-/// groups ignored. Throws Error with the line on anything else: binary files, elements of second order,
-/// prisms and pyramids, coordinates that are not finite, unknown nodes, an incomplete file.
+/// whatever their numbers; lines, triangles, quads, tetrahedra, hexahedra, prisms and pyramids are read,
+/// point elements and all groups ignored. Throws Error with the line on anything else: binary files, elements
+/// of second order, coordinates that are not finite, unknown nodes, an incomplete file.
 Mesh read_gmsh(std::string const& path);
 
 }  // namespace sinew::io
@@ -182,14 +182,12 @@ class GmshParser {
         return 4;
       case 5:
         return 8;
+      case 6:
+        return 6;
+      case 7:
+        return 5;
       case 15:
         return 1;
-      case 6:
-      case 7:
-        throw in_.error(text("elements of type ",
-                             type,
-                             type == 6 ? " (prisms)" : " (pyramids)",
-                             " are not read; mesh with tetrahedra or hexahedra only"));
       default:
         break;
     }
@@ -210,6 +208,10 @@ class GmshParser {
         return add(mesh_.tetrahedra);
       case 5:
         return add(mesh_.hexahedra);
+      case 6:
+        return add(mesh_.prisms);
+      case 7:
+        return add(mesh_.pyramids);
       default:
         node();  // a point
     }

@@ -323,6 +323,7 @@ namespace sinew::io {
 SINEW_ONCE Mesh parse_vtk(std::string_view path, std::string_view content) {
   Mesh mesh = detail::VtkParser(path, content).parse();
   check_mesh(path, mesh);
+  orient_wedges(mesh);
   return mesh;
 }
 

@@ -120,12 +120,14 @@ class VtuParser {
 inline Mesh parse_vtu(std::string_view path, std::string_view content) {
   Mesh mesh = detail::VtuParser(path, content, "UnstructuredGrid").parse();
   check_mesh(path, mesh);
+  orient_wedges(mesh);
   return mesh;
 }
 /// The same of an unstructured grid or of polygonal data (.vtp).
 inline Mesh parse_vtk_xml(std::string_view path, std::string_view content) {
   Mesh mesh = detail::VtuParser(path, content, "").parse();
   check_mesh(path, mesh);
+  orient_wedges(mesh);
   return mesh;
 }
 

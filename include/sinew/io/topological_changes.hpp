@@ -144,12 +144,13 @@ class TopologicalFile {
     struct Name {
       std::string_view one, several;
     };
-    static constexpr std::array<Name, element_kinds> names{{{"Edge", "Edges"},
-                                                            {"Triangle", "Triangles"},
-                                                            {"Quad", "Quads"},
-                                                            {"Tetrahedron", "Tetrahedra"},
-                                                            {"Hexahedron", "Hexahedra"}}};
-    static constexpr std::array<std::size_t, element_kinds> corners{2, 3, 4, 4, 8};
+    static constexpr int kinds = 5;
+    static constexpr std::array<Name, kinds> names{{{"Edge", "Edges"},
+                                                    {"Triangle", "Triangles"},
+                                                    {"Quad", "Quads"},
+                                                    {"Tetrahedron", "Tetrahedra"},
+                                                    {"Hexahedron", "Hexahedra"}}};
+    static constexpr std::array<std::size_t, kinds> corners{2, 3, 4, 4, 8};
     const std::string_view name = word();
     if (name == "PointInTriangle" || name == "PointsInTriangle") {
       e.what = What::addPoints;
@@ -168,10 +169,10 @@ class TopologicalFile {
       return skipMore(e);
     }
     e.what = What::add;
-    while (e.kind < element_kinds && name != names[std::size_t(e.kind)].one &&
+    while (e.kind < kinds && name != names[std::size_t(e.kind)].one &&
            name != names[std::size_t(e.kind)].several)
       ++e.kind;
-    if (e.kind == element_kinds)
+    if (e.kind == kinds)
       throw in_.expected("Edges, Triangles, Quads, Tetrahedra, Hexahedra or PointsInTriangle");
     const std::size_t n = count("elements that come");
     next_ = in_.wordOnLine();

@@ -99,9 +99,10 @@ inline void check_point_data(std::string const& path, Mesh const& mesh, PointDat
 
 /// Writes a mesh with quantities at its points for ParaView (VTK XML, unstructured grid), whole or not at
 /// all. Values read back with the same bits. A mesh without elements gets a vertex a point, so that it can be
-/// seen. Throws Error as check_mesh() and write_file() do, and if an array has no name, that of another, or
-/// not components * points values.
-inline void write_vtu(std::string const& path, Mesh const& mesh, PointData const& data = {}) {
+/// seen, unless `vertices` is false. Throws Error as check_mesh() and write_file() do, and if an array has no
+/// name, that of another, or not components * points values.
+inline void write_vtu(std::string const& path, Mesh const& mesh, PointData const& data = {},
+                      bool vertices = true) {
   check_mesh(path, mesh);
   detail::check_point_data(path, mesh, data);
   // cells with the numbers of vtkCellType.h
@@ -111,10 +112,14 @@ inline void write_vtu(std::string const& path, Mesh const& mesh, PointData const
   cells.add(mesh.quads, 9);
   cells.add(mesh.tetrahedra, 10);
   cells.add(mesh.hexahedra, 12);
-  if (cells.types.empty()) {
-    std::vector<std::array<Index, 1>> vertices(mesh.positions.size());
-    for (std::size_t i = 0; i < vertices.size(); ++i) vertices[i][0] = Index(i);
-    cells.add(vertices, 1);
+  std::vector<Prism> wedges = mesh.prisms;  // VTK's first triangle is seen from outside
+  for (Prism& p : wedges) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
+  cells.add(wedges, 13);
+  cells.add(mesh.pyramids, 14);
+  if (vertices && cells.types.empty()) {
+    std::vector<std::array<Index, 1>> points(mesh.positions.size());
+    for (std::size_t i = 0; i < points.size(); ++i) points[i][0] = Index(i);
+    cells.add(points, 1);
   }
 
   static_assert(sizeof(Eigen::Vector3d) == 3 * sizeof(double));

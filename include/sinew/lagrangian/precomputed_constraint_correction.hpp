@@ -167,11 +167,7 @@ struct PrecomputedConstraintCorrection {
           for (const int j : e)
             if (i != j) near[std::size_t(i)].push_back(j);
     };
-    join(topology.edges);
-    join(topology.triangles);
-    join(topology.quads);
-    join(topology.tetrahedra);
-    join(topology.hexahedra);
+    for_each_kind(topology, [&](int, auto const& elements) { join(elements); });
     for (std::size_t i = 0; i < n; ++i) {
       std::sort(near[i].begin(), near[i].end());
       near[i].erase(std::unique(near[i].begin(), near[i].end()), near[i].end());

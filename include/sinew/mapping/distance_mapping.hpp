@@ -125,10 +125,14 @@ struct DistanceMapping {
     filter(left.quads, before.quads, ElementKind::quad);
     filter(left.tetrahedra, before.tetrahedra, ElementKind::tetrahedron);
     filter(left.hexahedra, before.hexahedra, ElementKind::hexahedron);
+    filter(left.pyramids, before.pyramids, ElementKind::pyramid);
+    filter(left.prisms, before.prisms, ElementKind::prism);
     const std::vector<Edge> edges = edgesOf({.triangles = left.triangles,
                                              .quads = left.quads,
                                              .tetrahedra = left.tetrahedra,
-                                             .hexahedra = left.hexahedra});
+                                             .hexahedra = left.hexahedra,
+                                             .pyramids = left.pyramids,
+                                             .prisms = left.prisms});
     std::vector<bool> stays;
     for (Link const& link : links) stays.push_back(std::binary_search(edges.begin(), edges.end(), link.ends));
     return stays;
@@ -172,6 +176,7 @@ struct DistanceMapping {
     if (!edges.empty()) return edges;
     add(edges_of(list(t.triangles))), add(edges_of_quads(list(t.quads)));
     add(edges_of(list(t.tetrahedra))), add(edges_of(list(t.hexahedra)));
+    add(edges_of(list(t.pyramids))), add(edges_of(list(t.prisms)));
     std::sort(edges.begin(), edges.end());
     edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
     return edges;

@@ -5,6 +5,7 @@
 #include <sinew/core/lists.hpp>
 #include <sinew/core/point_loop.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/rigid_frame.hpp>
 #include <sinew/mapping/rigid_loops.hpp>
 
 #include <vector>
@@ -26,6 +27,7 @@ struct RigidMapping {
   using In = I;
   using Out = O;
   using Real = typename Out::Real;
+  using Frame = RigidFrame<In, Out>;
   static constexpr int N = In::spatial;
   static_assert(In::rigid && Out::spatial == N && (Out::rigid || Out::size == N),
                 "RigidMapping carries points or frames by rigid bodies of their space");
@@ -82,7 +84,7 @@ struct RigidMapping {
       for (std::size_t i = 0; i < local.size(); ++i) {
         auto const& body = parent.rest[body_of(i)];
         const Vec<Real, N> arm = Out::center(positions[i]) - body.center.template cast<Real>();
-        Out::setCenter(local[i], rotation(body).transpose() * arm);
+        Out::setCenter(local[i], Frame::rotation(body).transpose() * arm);
         if constexpr (Out::rigid && N == 3)
           local[i].orientation =
               body.orientation.conjugate().template cast<Real>() * positions[i].orientation;
@@ -112,7 +114,7 @@ struct RigidMapping {
     typename Out::Coord* to;
     SINEW_HD void operator()(int i) const {
       auto const& body = bodies[indices[one ? 0 : i]];
-      rotated[i] = rotation(body) * Out::center(local[i]);
+      rotated[i] = Frame::rotation(body) * Out::center(local[i]);
       Out::setCenter(to[i], body.center.template cast<Real>() + rotated[i]);
       if constexpr (Out::rigid && N == 3)
         to[i].orientation = (body.orientation.template cast<Real>() * local[i].orientation).normalized();
@@ -135,7 +137,7 @@ struct RigidMapping {
     Vec<Real, N> const* rotated;
     typename Out::Deriv* to;
     SINEW_HD void operator()(int i) const {
-      to[i] = jacobian(rotated[i]) * bodies[indices[one ? 0 : i]].template cast<Real>();
+      to[i] = Frame::jacobian(rotated[i]) * bodies[indices[one ? 0 : i]].template cast<Real>();
     }
   };
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
@@ -145,26 +147,20 @@ struct RigidMapping {
   struct Load {
     SINEW_HD void operator()(typename In::Deriv& to, Vec<Real, N> const& r,
                              typename Out::Deriv const& f) const {
-      to += (jacobian(r).transpose() * f).template cast<typename In::Real>();
+      to += (Frame::jacobian(r).transpose() * f).template cast<typename In::Real>();
     }
   };
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    f(int(body_of(std::size_t(point))), jacobian(rotated[std::size_t(point)]));
+    f(int(body_of(std::size_t(point))), Frame::jacobian(rotated[std::size_t(point)]));
   }
 
   void updateK(typename Out::VecDeriv const& f) {
     if (geometricStiffness == RotationalStiffness::none) return;
     for (auto& k : stiffness) k.setZero();
     for (std::size_t i = 0; i < local.size(); ++i) {
-      const Vec<Real, N> force = f[i].template head<N>(), r = rotated[i];
-      Mat<Real, angular> k;
-      if constexpr (N == 3)
-        k = Real(0.5) * (force * r.transpose() + r * force.transpose()) -
-            force.dot(r) * Mat<Real, 3>::Identity();
-      else
-        k(0) = -force.dot(r);
-      stiffness[body_of(i)] += k.template cast<typename In::Real>();
+      stiffness[body_of(i)] +=
+          Frame::stiffness(rotated[i], f[i].template head<N>()).template cast<typename In::Real>();
     }
   }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
@@ -182,27 +178,6 @@ struct RigidMapping {
       block.template bottomRightCorner<angular, angular>() = typename In::Real(p.k) * stiffness[b];
       sink.add(int(b), int(b), block);
     }
-  }
-
-  SINEW_HD static Mat<Real, N> rotation(typename In::Coord const& body) {
-    if constexpr (N == 3) {
-      return body.orientation.toRotationMatrix().template cast<Real>();
-    } else {
-      const Real c = Real(std::cos(body.orientation)), s = Real(std::sin(body.orientation));
-      return (Mat<Real, 2>() << c, -s, s, c).finished();
-    }
-  }
-  // (I, -[r]x), and (0, I) below it for frames
-  SINEW_HD static Mat<Real, Out::size, In::size> jacobian(Vec<Real, N> const& r) {
-    Mat<Real, Out::size, In::size> j = Mat<Real, Out::size, In::size>::Identity();
-    if constexpr (N == 3) {
-      j(0, 4) = r[2], j(0, 5) = -r[1];
-      j(1, 3) = -r[2], j(1, 5) = r[0];
-      j(2, 3) = r[1], j(2, 4) = -r[0];
-    } else {
-      j(0, 2) = -r[1], j(1, 2) = r[0];
-    }
-    return j;
   }
 
  private:

@@ -69,6 +69,8 @@ struct SubsetMultiMapping {
     }
   };
   std::vector<PointsOfParent> parts{};  // one a parent
+  PointsOfParent& part(std::size_t parent) { return parts[parent]; }
+  PointsOfParent const& part(std::size_t parent) const { return parts[parent]; }
 
   /// Points go with those of the parents.
   void follow(Renumbering const& child, std::vector<Renumbering const*> const& above) {

@@ -15,11 +15,11 @@
 namespace sinew {
 
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
-/// topology, which share theirs out among their points. Elements are the tetrahedra and hexahedra; where
-/// there are none, the triangles and quads (and the density is that of an area); else the edges (that of a
-/// length). Over values with fewer coordinates than space, such as temperatures, that stand in a child node
-/// of the body, they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no
-/// element has has no mass: it has no weight, and no explicit solver can move it.
+/// topology, which share theirs out among their points. Elements are those in space; where there are none,
+/// the triangles and quads (and the density is that of an area); else the edges (that of a length). Over
+/// values with fewer coordinates than space, such as temperatures, that stand in a child node of the body,
+/// they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no element has
+/// has no mass: it has no weight, and no explicit solver can move it.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -137,15 +137,18 @@ struct DiagonalMass {
     };
     TopologyView const& t = context.topology;
     check_element_indices(where, t, x.size());
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty()) {
+    if (dimension_of(t) == 3) {
       for (auto const& e : t.tetrahedra) {
         const Eigen::Vector3d a = at(e[1]) - at(e[0]), b = at(e[2]) - at(e[0]), c = at(e[3]) - at(e[0]);
         share(e, std::abs(a.dot(b.cross(c))) / 6);
       }
-      for (auto const& e : t.hexahedra) {
-        addHexahedron(e, x, size);
-        for (const Index i : e) alone[std::size_t(i)] = false;
-      }
+      auto addAll = [&](auto const& elements) {
+        for (auto const& e : elements) {
+          addHexahedron(as_hexahedron(e), x, size);
+          for (const Index i : e) alone[std::size_t(i)] = false;
+        }
+      };
+      addAll(t.hexahedra), addAll(t.pyramids), addAll(t.prisms);
     } else if (!t.triangles.empty() || !t.quads.empty()) {
       // the triangles of a grid are the halves of its quads
       if (t.grid[0] == 0 || t.quads.empty())

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/assembly.hpp>
 #include <sinew/core/follow.hpp>
 #include <sinew/core/lists.hpp>
-#include <sinew/linalg/block_matrix.hpp>
+#include <sinew/mass/consistent_mass.hpp>
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
@@ -16,16 +15,16 @@
 namespace sinew {
 
 /// Which elements of a topology have mass; `highest`: those of the highest dimension.
-enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra };
-inline constexpr std::array<std::string_view, 6> enum_names(MassElements) {
-  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra"};
+enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra, pyramids, prisms };
+inline constexpr std::array<std::string_view, 8> enum_names(MassElements) {
+  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra", "pyramids", "prisms"};
 }
 
 /// The consistent mass of the elements of the topology (Archer 1963): with N_i the shape functions and rho
 /// the density,
 ///   M_ij = integral of rho N_i N_j over the undeformed body         [kg], times the identity
-/// for tetrahedra and hexahedra; where there are none, for triangles and quads (rho is that of an area); else
-/// for edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
+/// for elements in space; where there are none, for triangles and quads (rho is that of an area); else for
+/// edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
 /// diagonal. Without a density the body has a total of 1 kg.
 ///
 /// Over values with fewer coordinates than space, such as temperatures, that stand in a child node of the
@@ -59,8 +58,7 @@ struct MeshMatrixMass {
               &M::massDensity,
               "kg/m^3",
               "density, [kg/m^2] of a surface, [kg/m] of a wire: one for all elements, or one for each, "
-              "tetrahedra "
-              "before hexahedra and triangles before quads",
+              "tetrahedra before hexahedra, pyramids and prisms, and triangles before quads",
               range::positive)
             .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
@@ -81,12 +79,11 @@ struct MeshMatrixMass {
     totalMass.reset();
   }
 
-  LumpedMass<D> lumped{};                           // the row sums
-  CompressedRowSparseMatrix<Real, 1> consistent{};  // a scalar for each pair of points; empty when lumped
-  std::vector<int> slots{};  // of its blocks on and above the diagonal, in the matrix of the solver
+  LumpedMass<D> lumped{};          // the row sums
+  ConsistentMass<D> consistent{};  // empty when lumped
 
   /// M^-1 undoes M.
-  bool exactInverse() const { return consistent.columns.empty(); }
+  bool exactInverse() const { return consistent.empty(); }
 
   void init(InitContext<D> const& context) {
     static_assert(!D::rigid,
@@ -98,14 +95,15 @@ struct MeshMatrixMass {
     check_values_of_body(where, context);
     check_element_indices(where, context.topology, n);
 
+    consistent = {};
     const bool ofValues = !context.body.empty();
-    consistent.startPattern(int(n));
-    for (int i = 0; ofValues && i < int(n); ++i) consistent.preallocate(i, i, 1, 1);
+    consistent.matrix.startPattern(int(n));
+    for (int i = 0; ofValues && i < int(n); ++i) consistent.matrix.preallocate(i, i, 1, 1);
     const std::size_t count = forEachElement(context, [&](auto const& e, std::size_t, auto const&) {
       for (const Index i : e)
-        for (const Index j : e) consistent.preallocate(i, j, 1, 1);
+        for (const Index j : e) consistent.matrix.preallocate(i, j, 1, 1);
     });
-    consistent.finishPattern();
+    consistent.matrix.finishPattern();
     if (count == 0)
       throw Error(
           where,
@@ -120,23 +118,23 @@ struct MeshMatrixMass {
     if (!massDensity.empty())
       check_one_or_each(where, "massDensity", massDensity.size(), count, "elements", "one for all");
 
-    std::vector<double> rows(n, 0.0), values(consistent.columns.size(), 0.0);
+    std::vector<double> rows(n, 0.0), values(consistent.matrix.columns.size(), 0.0);
     double total = 0;
     forEachElement(context, [&](auto const& e, std::size_t number, auto const& mass) {
       const double density = massDensity.empty() ? 1 : one_or_each(massDensity, number);
       for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t j = 0; j < e.size(); ++j) {
           const double m = density * mass(Eigen::Index(i), Eigen::Index(j));
-          if (e[i] <= e[j]) values[std::size_t(consistent.slot(int(e[i]), int(e[j])))] += m;
+          if (e[i] <= e[j]) values[std::size_t(consistent.matrix.slot(int(e[i]), int(e[j])))] += m;
           rows[std::size_t(e[i])] += m;
           total += m;
         }
     });
     if (ofValues)
       for (const std::size_t i : fill_unused(rows))
-        values[std::size_t(consistent.slot(int(i), int(i)))] = rows[i];
+        values[std::size_t(consistent.matrix.slot(int(i), int(i)))] = rows[i];
     scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
-    for (std::size_t k = 0; k < values.size(); ++k) consistent.values[k] = Real(scale * values[k]);
+    for (std::size_t k = 0; k < values.size(); ++k) consistent.matrix.values[k] = Real(scale * values[k]);
     std::vector<MassType> sums(n);
     for (std::size_t i = 0; i < n; ++i) sums[i] = MassType(scale * rows[i]);
     lumped.init(where, sums);
@@ -148,64 +146,29 @@ struct MeshMatrixMass {
   }
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
     if (lumping) return lumped.addMDx(f, x, dx, Real(factor));
-    forEachPair([&](std::size_t i, std::size_t j, Real m) {
-      f[i] += Real(factor) * m * dx[j];
-      if (i != j) f[j] += Real(factor) * m * dx[i];
-    });
+    consistent.addMDx(f, dx, factor);
   }
   void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const { lumped.accFromF(a, x, f); }
   double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
-    if (lumping) return lumped.kineticEnergy(x, v);
-    double sum = 0;
-    forEachPair([&](std::size_t i, std::size_t j, Real m) {
-      sum += (i == j ? 0.5 : 1) * double(m * v[i].dot(v[j]));
-    });
-    return sum;
+    return lumping ? lumped.kineticEnergy(x, v) : consistent.kineticEnergy(v);
   }
 
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, VecCoord const& x, Sink const& sink) {
     if (lumping) return lumped.addToMatrix(x, Real(p.m), sink);
-    if constexpr (Sink::direct && Sink::MatrixType::blockSize == D::size &&
-                  Sink::phase != AssemblyPhase::pattern) {
-      const int offset = sink.template side<0>().offset, first = offset / D::size;
-      if constexpr (Sink::phase == AssemblyPhase::bind) slots.clear();
-      if (offset % D::size == 0 && (Sink::phase == AssemblyPhase::bind || !slots.empty())) {
-        std::size_t next = 0;
-        for (int i = 0; i < consistent.rows(); ++i)
-          for (int k = consistent.rowStart[std::size_t(i)]; k < consistent.rowStart[std::size_t(i) + 1]; ++k)
-            if constexpr (Sink::phase == AssemblyPhase::bind) {
-              slots.push_back(sink.matrix.slot(first + i, first + consistent.columns[std::size_t(k)]));
-            } else {
-              auto* const block = sink.matrix.block(slots[next++]);
-              const auto m = typename Sink::MatrixType::Real(p.m * double(consistent.values[std::size_t(k)]));
-              for (int c = 0; c < D::size; ++c) block[c * (D::size + 1)] += m;
-            }
-        return;
-      }
-    }
-    if constexpr (Sink::phase != AssemblyPhase::bind)
-      forEachPair([&](std::size_t i, std::size_t j, Real m) {
-        const Mat<Real, D::size> block = Mat<Real, D::size>::Identity() * Real(p.m * double(m));
-        sink.add(int(i), int(j), block);
-        if (i != j) sink.add(int(j), int(i), block);
-      });
+    consistent.addToMatrix(p, sink);
   }
 
  private:
-  // f(i, j, mass) for each pair of points i <= j
-  template <class F>
-  void forEachPair(F&& f) const {
-    for (std::size_t i = 0; i < std::size_t(consistent.rows()); ++i)
-      for (std::size_t k = std::size_t(consistent.rowStart[i]); k < std::size_t(consistent.rowStart[i + 1]);
-           ++k)
-        f(i, std::size_t(consistent.columns[k]), consistent.values[k]);
-  }
-
   // f(points, number, integral of N_i N_j) for each element; returns how many there are
   template <class F>
   std::size_t forEachElement(InitContext<D> const& context, F&& f) const {
     auto at = [&context](Index i) { return context.place(i); };
+    auto cornersOf = [&at]<std::size_t N>(std::array<Index, N> const& e) {
+      Eigen::Matrix<double, 3, int(N)> x;
+      for (std::size_t k = 0; k < N; ++k) x.col(Eigen::Index(k)) = at(e[k]);
+      return x;
+    };
     std::size_t number = 0;
     // of k + 1 corners and size V: V (1 + delta_ij) / ((k + 1) (k + 2))
     auto simplices = [&](auto const& all, auto const& sizeOf) {
@@ -220,8 +183,7 @@ struct MeshMatrixMass {
     };
     TopologyView const& t = context.topology;
     const bool highest = elements == MassElements::highest;
-    const bool volumes = !t.tetrahedra.empty() || !t.hexahedra.empty(),
-               surfaces = !volumes && (!t.triangles.empty() || !t.quads.empty());
+    const bool volumes = dimension_of(t) == 3, surfaces = dimension_of(t) == 2;
     auto have = [&](MassElements kind, bool ofHighest) { return highest ? ofHighest : elements == kind; };
     if (have(MassElements::tetrahedra, volumes))
       simplices(t.tetrahedra, [&](Tetrahedron const& e) {
@@ -232,39 +194,26 @@ struct MeshMatrixMass {
         const bool weighted = fillWeighted && t.massFill.size() == t.hexahedra.size();
         f(t.hexahedra[h],
           number++,
-          ((weighted ? t.massFill[h] : 1) * multilinear<3>(t.hexahedra[h], at)).eval());
+          ((weighted ? t.massFill[h] : 1) * multilinear_mass<3>(cornersOf(t.hexahedra[h]))).eval());
       }
+    auto collapsed = [&](auto const& all) {
+      for (auto const& e : all) {
+        const Hexahedron h = as_hexahedron(e);
+        f(h, number++, multilinear_mass<3>(cornersOf(h)).eval());
+      }
+    };
+    if (have(MassElements::pyramids, volumes)) collapsed(t.pyramids);
+    if (have(MassElements::prisms, volumes)) collapsed(t.prisms);
     // the triangles of a grid are the halves of its quads
     if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
       simplices(t.triangles, [&](Triangle const& e) {
         return (at(e[1]) - at(e[0])).cross(at(e[2]) - at(e[0])).norm() / 2;
       });
     if (have(MassElements::quads, surfaces))
-      for (auto const& e : t.quads) f(e, number++, multilinear<2>(e, at));
+      for (auto const& e : t.quads) f(e, number++, multilinear_mass<2>(cornersOf(e)));
     if (have(MassElements::edges, !volumes && !surfaces))
       simplices(t.edges, [&](Edge const& e) { return (at(e[1]) - at(e[0])).norm(); });
     return number;
-  }
-
-  // three Gauss points a direction are exact to degree five; N_i N_j det J has four at most
-  template <int Dim, class Element, class At>
-  static auto multilinear(Element const& e, At const& at) {
-    constexpr int corners = 1 << Dim;
-    Eigen::Matrix<double, 3, corners> x;
-    for (int k = 0; k < corners; ++k) x.col(k) = at(e[std::size_t(k)]);
-    Eigen::Matrix<double, corners, corners> mass;
-    mass.setZero();
-    const double node[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
-                 weight[3] = {5. / 18, 4. / 9, 5. / 18};
-    for (int q = 0; q < (Dim == 3 ? 27 : 9); ++q) {
-      Eigen::Matrix<double, Dim, 1> place;
-      double w = 1;
-      for (int c = 0, rest = q; c < Dim; ++c, rest /= 3) place[c] = node[rest % 3], w *= weight[rest % 3];
-      const MultilinearShape<Dim> shape(place);
-      const Eigen::Matrix<double, 3, Dim> J = x * shape.derivatives;
-      mass += w * std::sqrt((J.transpose() * J).determinant()) * shape.weights * shape.weights.transpose();
-    }
-    return mass;
   }
 };
 

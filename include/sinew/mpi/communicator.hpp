@@ -4,6 +4,7 @@
 // Needs MPI (Debian: libopenmpi-dev). Not in sinew.hpp; CMake's target sinew::mpi, there where MPI, PETSc and
 // METIS are installed, brings it.
 #include <sinew/core/error.hpp>
+#include <sinew/mpi/board.hpp>
 
 #include <mpi.h>
 
@@ -11,6 +12,7 @@
 #include <cstddef>
 #include <cstdio>
 #include <cstring>
+#include <ctime>
 #include <exception>
 #include <memory>
 #include <new>
@@ -43,6 +45,10 @@ struct RaisedElsewhere : std::exception {
 class Communicator {
  public:
   double patience = 300;  // [s]
+  // so far, by this rank: time that it has waited [s], what its processor took meanwhile [s], sums over all
+  // ranks
+  double waited = 0, spun = 0;
+  long sums = 0;
 
   /// Of the same ranks as `of`; all of them have to call it.
   explicit Communicator(MPI_Comm of = MPI_COMM_WORLD) {
@@ -51,6 +57,7 @@ class Communicator {
     MPI_Comm_rank(comm_, &rank_);
     MPI_Comm_size(comm_, &size_);
     buffers_->terms.resize(std::size_t(size_));
+    board_.emplace(comm_);
   }
   Communicator(Communicator const&) = delete;
   Communicator& operator=(Communicator const&) = delete;
@@ -59,6 +66,7 @@ class Communicator {
     MPI_Finalized(&ended);
     if (failed_) keep(std::move(buffers_));
     if (ended || failed_) return;
+    board_->close();
     MPI_Comm_free(&comm_);
     MPI_Comm_free(&errors_);
   }
@@ -66,6 +74,10 @@ class Communicator {
   MPI_Comm handle() const { return comm_; }
   int rank() const { return rank_; }
   int size() const { return size_; }
+  Board& board() { return *board_; }
+  /// For those that wait for this rank: it is elsewhere than in collectively() until it is working() again.
+  void inside(std::string_view what) { board_->write("is in ", what); }
+  void working() { board_->write("works on ", doing_); }
 
   // messages, of which none is complete before wait()
 
@@ -88,10 +100,21 @@ class Communicator {
     });
   }
 
+  /// To be called again and again while something else is waited for: where another rank has raised an
+  /// error, throws RaisedElsewhere.
+  void look(std::string_view what) {
+    int raised = 0;
+    MPI_Iprobe(MPI_ANY_SOURCE, poke, errors_, &raised, MPI_STATUS_IGNORE);
+    if (!raised) return;
+    waited_ = what;
+    throw RaisedElsewhere();
+  }
+
   // what all ranks have to call
 
   /// The sum over all ranks, added in their order.
   double sum(double value, std::string_view what = "a sum over all ranks") {
+    ++sums;
     MPI_Request request = MPI_REQUEST_NULL;
     buffers_->term = value;
     MPI_Iallgather(&buffers_->term, 1, MPI_DOUBLE, buffers_->terms.data(), 1, MPI_DOUBLE, comm_, &request);
@@ -158,6 +181,8 @@ class Communicator {
   template <class F>
   void collectively(std::string_view what, F&& f) {
     std::optional<std::string> said;
+    doing_ = what;
+    working();
     try {
       f();
       meet(what);
@@ -191,6 +216,8 @@ class Communicator {
   int rank_ = 0, size_ = 1, reporter_ = 0;
   bool failed_ = false, stuck_ = false;
   std::string waited_{};  // for what, when an error came
+  std::string doing_{};
+  std::optional<Board> board_{};
   // MPI may read and write these after a wait that has ended by an error, until it ends itself
   struct Buffers {
     double term = 0;
@@ -206,14 +233,12 @@ class Communicator {
 
   template <class Done>
   void poll(std::string_view what, Done&& done) {
+    if (done()) return;
+    board_->write("waits for ", what);
     const double start = MPI_Wtime();
-    for (long turn = 0; !done(); ++turn) {
-      int raised = 0;
-      MPI_Iprobe(MPI_ANY_SOURCE, poke, errors_, &raised, MPI_STATUS_IGNORE);
-      if (raised) {
-        waited_ = what;
-        throw RaisedElsewhere();
-      }
+    const std::clock_t before = std::clock();
+    while (!done()) {
+      look(what);
       if (MPI_Wtime() - start > patience)
         throw Error("",
                     text("rank ",
@@ -227,6 +252,9 @@ class Communicator {
                          "; look at the ranks that do not answer, or give it more patience"));
       std::this_thread::yield();
     }
+    waited += MPI_Wtime() - start;
+    spun += double(std::clock() - before) / CLOCKS_PER_SEC;
+    working();
   }
 
   // each rank tells each other whether it has raised an error, and where it was
@@ -270,7 +298,8 @@ class Communicator {
       raised += report.raised;
       if (!answered[std::size_t(r)]) {
         stuck_ = true;
-        others += text("; rank ", r, " does not answer");
+        const std::string where = board_->read(r);
+        others += text("; rank ", r, " does not answer", where.empty() ? "" : ": it ", where);
       } else if (report.raised && reporter_ < 0) {
         reporter_ = r;
         first = report.words;

@@ -28,7 +28,8 @@ struct Halo {
     std::size_t first, ghosts;  // points here
     std::vector<std::byte> out{}, in{};
   };
-  std::vector<int> parts{};  // rank of each point of the scene
+  std::vector<int> parts{};      // rank of each point of the scene
+  std::vector<Index> numbers{};  // of each point here, its number in the scene
   std::vector<std::size_t> ownedBy{};
   std::vector<int> ghostOwner{}, ghostNumber{};
   std::vector<Neighbour> neighbours{};
@@ -36,10 +37,10 @@ struct Halo {
   Halo() = default;
   explicit Halo(Part&& part, int rank)
       : parts(std::move(part.parts)),
+        numbers(part.points.kept),
         ownedBy(std::move(part.ownedBy)),
         ghostOwner(std::move(part.ghostOwner)),
         ghostNumber(std::move(part.ghostNumber)) {
-    // a point is sent where it is a ghost, so that who sends also receives
     std::size_t first = ownedBy[std::size_t(rank)];
     for (auto& [other, sent] : part.sent) {
       const auto ghosts = std::size_t(std::count(ghostOwner.begin(), ghostOwner.end(), other));
@@ -69,6 +70,12 @@ struct Halos {
   }
 };
 
+/// What this rank has sent to others so far, to be their ghost points.
+struct Traffic {
+  long exchanges = 0, messages = 0;
+  std::size_t bytes = 0;
+};
+
 /// What a rank knows of a scene whose points are shared out among several: which are ghosts, and how their
 /// values come from the ranks that own them. Mechanical operations ask it (scene/state_vectors.hpp,
 /// scene/mechanical_forces.hpp): vectors are right at own points, sums are over these, and ghost points of
@@ -82,7 +89,14 @@ class Distribution {
   /// Whether the scene is shared out already; before, each rank has all of it.
   bool active() const { return !halos_.all.empty(); }
   Halo const& halo(int number) const { return halos_.all[std::size_t(number)]; }
-  void add(Halo halo) { halos_.all.push_back(std::move(halo)); }
+  void add(Halo halo, bool mapped) {
+    halos_.all.push_back(std::move(halo));
+    hasMapped_ = hasMapped_ || mapped;
+  }
+  /// Whether a state follows another that is shared out.
+  bool hasMapped() const { return hasMapped_; }
+
+  Traffic const& traffic() const { return traffic_; }
 
   double sum(double value) const { return active() ? ranks_->sum(value) : value; }
 
@@ -91,6 +105,7 @@ class Distribution {
   void begin(Vectors const& vectors, Ids... ids) {
     if (!active()) return;
     halos_.messages.clear();
+    ++traffic_.exchanges;
     vectors.forEachIndependent([&](auto& s) {
       for (Halo::Neighbour& n : halos_.all[std::size_t(s.halo)].neighbours) {
         const std::size_t bytes = (sizeof(s[ids][0]) + ...);
@@ -98,8 +113,12 @@ class Distribution {
         n.in.resize(bytes * n.ghosts);
         std::byte* to = n.out.data();
         (pack(to, s[ids], n.sent), ...);
-        halos_.messages.push_back(ranks_->receive(n.rank, n.in.data(), n.in.size(), s.halo));
+        if (n.ghosts > 0)
+          halos_.messages.push_back(ranks_->receive(n.rank, n.in.data(), n.in.size(), s.halo));
+        if (n.sent.empty()) continue;
         halos_.messages.push_back(ranks_->send(n.rank, n.out.data(), n.out.size(), s.halo));
+        ++traffic_.messages;
+        traffic_.bytes += n.out.size();
       }
     });
   }
@@ -165,7 +184,10 @@ class Distribution {
   std::vector<Value> everywhere(State const& s, std::vector<Value> const& own) const {
     if (!active()) return own;
     Halo const& h = halo(s.halo);
-    const auto byRank = ranks_->gather(own, h.ownedBy, "values at the points of all ranks");
+    std::vector<Value> mine;
+    for (std::size_t i = 0; i < own.size(); ++i)
+      if (h.parts[std::size_t(h.numbers[i])] == ranks_->rank()) mine.push_back(own[i]);
+    const auto byRank = ranks_->gather(mine, h.ownedBy, "values at the points of all ranks");
     std::vector<Value> all(h.parts.size());
     std::vector<std::size_t> next(1, 0);
     for (const std::size_t n : h.ownedBy) next.push_back(next.back() + n);
@@ -176,6 +198,8 @@ class Distribution {
  private:
   std::shared_ptr<Communicator> ranks_{};
   Halos halos_{};
+  bool hasMapped_ = false;
+  Traffic traffic_{};
 
   template <class Values>
   static void pack(std::byte*& to, Values const& values, std::vector<int> const& points) {

@@ -20,11 +20,6 @@
 namespace sinew::mpi {
 
 namespace detail {
-/// f(kind, list) for the lists of elements of a topology.
-template <class F>
-void for_each_kind(TopologyView const& t, F&& f) {
-  f(0, t.edges), f(1, t.triangles), f(2, t.quads), f(3, t.tetrahedra), f(4, t.hexahedra);
-}
 /// f(points) for each element of some topologies over the same points.
 template <class F>
 void for_each_element(std::span<TopologyView const> topologies, F&& f) {
@@ -35,12 +30,16 @@ void for_each_element(std::span<TopologyView const> topologies, F&& f) {
 }
 }  // namespace detail
 
+/// Lists of points that something joins as an element would.
+using JoinedPoints = std::vector<std::vector<Index>>;
+
 /// Shares out n points among so many ranks, with few elements between points of different ranks: METIS
-/// (Karypis, Kumar 1998), on the graph of points that have an element in common. The same in each run. Throws
-/// Error where there are fewer points or elements than ranks.
+/// (Karypis, Kumar 1998), on the graph of points that have an element in common, or are joined otherwise. The
+/// same in each run. Throws Error where there are fewer points or elements than ranks.
 inline std::vector<int> parts_of_points(std::string_view where, std::size_t n,
-                                        std::span<TopologyView const> topologies, int ranks) {
-  std::size_t elements = 0;
+                                        std::span<TopologyView const> topologies, int ranks,
+                                        JoinedPoints const& together = {}) {
+  std::size_t elements = together.size();
   detail::for_each_element(topologies, [&](auto const&) { ++elements; });
   if (n < std::size_t(ranks) || elements < std::size_t(ranks))
     throw Error(where,
@@ -52,11 +51,13 @@ inline std::vector<int> parts_of_points(std::string_view where, std::size_t n,
                      " ranks; take fewer ranks (mpirun -n)"));
   if (ranks == 1) return std::vector<int>(n, 0);
   std::vector<std::vector<idx_t>> joined(n);
-  detail::for_each_element(topologies, [&](auto const& element) {
+  auto join = [&](auto const& element) {
     for (const Index i : element)
       for (const Index j : element)
         if (i != j) joined[std::size_t(i)].push_back(idx_t(j));
-  });
+  };
+  detail::for_each_element(topologies, join);
+  for (auto const& points : together) join(points);
   std::vector<idx_t> starts{0}, neighbours;
   for (auto& all : joined) {
     std::sort(all.begin(), all.end());
@@ -112,8 +113,10 @@ struct Part {
   std::size_t owned(int rank) const { return ownedBy[std::size_t(rank)]; }
 };
 
+/// `everywhere`: points that each rank has, as ghosts where they are not its own.
 inline Part part_of(std::string_view where, std::vector<int> parts, std::span<TopologyView const> topologies,
-                    int rank, int ranks) {
+                    int rank, int ranks, JoinedPoints const& together = {},
+                    std::span<Index const> everywhere = {}) {
   Part part;
   const std::size_t n = parts.size();
   part.ownedBy.assign(std::size_t(ranks), 0);
@@ -125,7 +128,7 @@ inline Part part_of(std::string_view where, std::vector<int> parts, std::span<To
   }
   std::vector<bool> elementsOf(std::size_t(ranks), false), ghost(n, false);
   std::vector<std::pair<int, int>> sends;  // to a rank, a point
-  detail::for_each_element(topologies, [&](auto const& element) {
+  auto take = [&](auto const& element) {
     bool here = false;
     for (const Index i : element) {
       elementsOf[std::size_t(parts[std::size_t(i)])] = true;
@@ -139,7 +142,19 @@ inline Part part_of(std::string_view where, std::vector<int> parts, std::span<To
       for (const Index j : element)
         if (parts[std::size_t(j)] == rank) sends.emplace_back(owner, number[std::size_t(j)]);
     }
-  });
+  };
+  detail::for_each_element(topologies, take);
+  for (auto const& points : together) take(points);
+  // (who sends also receives: a rank without a point that all have waits for nobody, and is sent nothing)
+  for (const Index i : everywhere) {
+    if (parts[std::size_t(i)] != rank) {
+      ghost[std::size_t(i)] = true;
+      part.sent[parts[std::size_t(i)]];
+    } else {
+      for (int r = 0; r < ranks; ++r)
+        if (r != rank) sends.emplace_back(r, number[std::size_t(i)]);
+    }
+  }
   for (int r = 0; r < ranks; ++r)
     if (!elementsOf[std::size_t(r)])
       throw Error(where,
@@ -168,7 +183,7 @@ inline Part part_of(std::string_view where, std::vector<int> parts, std::span<To
   for (TopologyView const& t : topologies) {
     TopologyChange& change = part.topologies.emplace_back();
     change.points = part.points;
-    detail::for_each_kind(t, [&](int kind, auto const& list) {
+    for_each_kind(t, [&](int kind, auto const& list) {
       std::vector<Index> inner, border;
       for (std::size_t e = 0; e < list.size(); ++e) {
         bool any = false, all = true;

@@ -4,28 +4,19 @@
 // Needs PETSc (Debian: petsc-dev), which has a licence of its own (BSD), as have the libraries in it. Not in
 // sinew.hpp; CMake's target sinew::mpi, there where PETSc is installed, brings it.
 #include <sinew/core/phase.hpp>
-#include <sinew/mpi/petsc.hpp>
+#include <sinew/mpi/rank_multigrid.hpp>
 #include <sinew/solver/linear_system.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <exception>
+#include <functional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
-
-namespace sinew::mpi {
-
-/// Where the unknowns of a rank are in those of all: its rows are some blocks of its matrix, from `begin` on.
-struct PetscLayout {
-  std::vector<PetscInt> rows{};  // blocks of the matrix here whose rows are this rank's, in the order of all
-  std::vector<PetscInt> global{};  // of each block of the matrix here, its number among all
-  PetscInt begin = 0;
-  PetscInt blocks() const { return PetscInt(rows.size()); }
-};
-
-}  // namespace sinew::mpi
 
 namespace sinew {
 
@@ -35,16 +26,18 @@ namespace sinew {
 /// gmres, fgmres, bcgs, gcr), else what it takes by itself. `options` is what PETSc's command line would
 /// have, such as
 /// "-pc_hypre_type boomeramg"; for a direct method take solver="preonly" with preconditioner="cholesky", or
-/// "lu". The near null space of the matrix, which multigrid by aggregation (gamg) asks for, is the rigid
-/// motions of points in space. Throws Error at names and options that PETSc does not know, and where a solve
-/// does not converge. PETSc allocates in a solve.
+/// "lu". With the preconditioner "multigrid" each rank has Sinew's own for what is its, and all of them the
+/// rigid motions of their parts as a coarse level (RankMultigrid); with the matrix "free" there is none, and
+/// products go through the scene. The near null space of the matrix, which multigrid by aggregation (gamg)
+/// asks for, is the rigid motions of points in space. Throws Error at names and options that PETSc does not
+/// know, and where a solve does not converge. PETSc allocates in a solve.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct PetscLinearSolver {
   using Role = role::LinearSolver;
   static constexpr std::string_view className = "PetscLinearSolver";
   static constexpr std::string_view header = "sinew/mpi/petsc_linear_solver.hpp";
   static constexpr std::string_view templateName = Matrix::name;
-  static constexpr Auxiliary auxiliary{};
+  static constexpr Auxiliary auxiliary{.derivs = 2};  // of products without a matrix
 
   std::string solver = "cg", preconditioner = "pbjacobi";
   double tolerance = 1e-8;
@@ -59,7 +52,8 @@ struct PetscLinearSolver {
         field("preconditioner",
               &S::preconditioner,
               "",
-              "PETSc's name of the preconditioner: pbjacobi, bjacobi, gamg, hypre, cholesky, none..."),
+              "PETSc's name of the preconditioner: pbjacobi, bjacobi, gamg, hypre, cholesky, none..., or "
+              "multigrid: Sinew's own"),
         field("tolerance", &S::tolerance, "", "relative residual at which to stop", range::positive),
         field("iterations",
               &S::iterations,
@@ -68,7 +62,10 @@ struct PetscLinearSolver {
               range::atLeast(1))
             .also("maxIter"),
         field("warmStart", &S::warmStart, "", "start from the solution of the last system, instead of 0"),
-        field("matrix", &S::matrix, "", "PETSc's name of the matrix: baij, in blocks, or aij, in scalars"),
+        field("matrix",
+              &S::matrix,
+              "",
+              "PETSc's name of the matrix: baij, in blocks, or aij, in scalars; free: there is none"),
         field("options", &S::options, "", "others of PETSc, as on its command line: -name value ..."));
   }
 
@@ -84,6 +81,12 @@ struct PetscLinearSolver {
   std::vector<PetscScalar> values{};
   std::string where{};
   bool optionsAreRead = false;
+  mpi::RankMultigrid<Matrix> multigrid{};
+  // what PETSc calls in a solve, and what has come of it
+  using Call = std::function<void(PetscScalar const*, PetscScalar*)>;
+  Call multiply{}, precondition{};
+  std::exception_ptr thrown{};
+  MatrixFactors last{};
   // of the last solve
   int iterationsTaken = 0;
   double residual = 0;
@@ -93,20 +96,26 @@ struct PetscLinearSolver {
     where = text(operations.root.path(), ": ", className);
     mpi::start_petsc();
     checkName(KSPList, solver, "solver", "method");
-    checkName(PCList, preconditioner, "preconditioner", "preconditioner");
-    if (matrix != "baij" && matrix != "aij")
-      throw Error(where, text("matrix is '", matrix, "', but has to be baij or aij"));
+    if (!ownMultigrid()) checkName(PCList, preconditioner, "preconditioner", "preconditioner");
+    if (matrix != "baij" && matrix != "aij" && !matrixFree())
+      throw Error(where, text("matrix is '", matrix, "', but has to be baij, aij or free"));
+    if (matrixFree() && preconditioner != "none")
+      throw Error(where,
+                  text("preconditioner is '",
+                       preconditioner,
+                       "', which is made of a matrix, and matrix is free; take none, or a matrix"));
     if constexpr (std::decay_t<decltype(operations.root)>::distributed)
       if (!operations.root.distribution().active()) return;  // the whole scene is about to be shared out
-    operations.initMatrix(local);
-    x.setZero(local.dofs());
-    b.setZero(local.dofs());
+    const int dofs = matrixFree() ? operations.numberDofs(B) : 0;
+    if (!matrixFree()) operations.initMatrix(local);
+    x.setZero(matrixFree() ? dofs : local.dofs());
+    b.setZero(x.size());
     MPI_Comm ranks = PETSC_COMM_SELF;
     if constexpr (std::decay_t<decltype(operations.root)>::distributed) {
       ranks = operations.root.distribution().ranks().handle();
       operations.root.distribution().layout(operations, layout, Matrix::blockSize, where);
     } else {
-      const PetscInt n = local.rows();
+      const PetscInt n = PetscInt(x.size() / B);
       layout.global.resize(std::size_t(n));
       for (PetscInt i = 0; i < n; ++i) layout.global[std::size_t(i)] = i;
       layout.rows = layout.global;
@@ -118,11 +127,13 @@ struct PetscLinearSolver {
   template <class Operations>
   void solve(Operations& operations, MatrixFactors factors, MultiVecDeriv<Operations>& to,
              MultiVecDeriv<Operations>& from) {
+    last = factors;
     {
       [[maybe_unused]] const auto span = operations.root.span(Phase::factorisation);
-      operations.assemble(local, factors);
+      if (!matrixFree()) operations.assemble(local, factors);
       meet(operations);
-      fill();
+      if (!matrixFree()) fill();
+      if (ownMultigrid()) multigrid.update(operations, local, layout, to.id);
     }
     run(operations, to, from, warmStart);
   }
@@ -134,6 +145,40 @@ struct PetscLinearSolver {
 
  private:
   static constexpr int B = Matrix::blockSize;
+  template <class Operations>
+  static constexpr bool distributes = std::decay_t<decltype(std::declval<Operations&>().root)>::distributed;
+
+  bool matrixFree() const { return matrix == "free"; }
+  bool ownMultigrid() const { return preconditioner == "multigrid"; }
+
+  // y = f(x) for PETSc. What f throws is thrown again behind it.
+  static PetscErrorCode called(PetscLinearSolver& self, Call const& f, ::Vec x, ::Vec y) {
+    PetscScalar const* from = nullptr;
+    PetscScalar* to = nullptr;
+    if (VecGetArrayRead(x, &from) != 0 || VecGetArray(y, &to) != 0) return PETSC_ERR_LIB;
+    PetscErrorCode code = 0;
+    try {
+      f(from, to);
+    } catch (...) {
+      self.thrown = std::current_exception();
+      code = PETSC_ERR_USER;
+    }
+    VecRestoreArrayRead(x, &from);
+    VecRestoreArray(y, &to);
+    return code;
+  }
+  static PetscErrorCode calledMultiply(::Mat a, ::Vec x, ::Vec y) {
+    void* self = nullptr;
+    if (MatShellGetContext(a, static_cast<void*>(&self)) != 0) return PETSC_ERR_LIB;
+    auto& solver = *static_cast<PetscLinearSolver*>(self);
+    return called(solver, solver.multiply, x, y);
+  }
+  static PetscErrorCode calledPrecondition(PC pc, ::Vec x, ::Vec y) {
+    void* self = nullptr;
+    if (PCShellGetContext(pc, static_cast<void*>(&self)) != 0) return PETSC_ERR_LIB;
+    auto& solver = *static_cast<PetscLinearSolver*>(self);
+    return called(solver, solver.precondition, x, y);
+  }
 
   void check(PetscErrorCode code) const { mpi::check_petsc(code, where); }
 
@@ -165,6 +210,22 @@ struct PetscLinearSolver {
 
   template <class Operations>
   void make(MPI_Comm ranks, Operations& operations) {
+    if (matrixFree())
+      makeFree(ranks);
+    else
+      makeMatrix(ranks, operations);
+    makeMethod(ranks);
+    if (ownMultigrid()) multigrid.init(operations, local, layout);
+  }
+  void makeFree(MPI_Comm ranks) {
+    const PetscInt n = layout.blocks() * B;
+    check(MatCreateShell(ranks, n, n, PETSC_DETERMINE, PETSC_DETERMINE, nullptr, system.fresh()));
+    check(MatShellSetOperation(system, MATOP_MULT, reinterpret_cast<void (*)(void)>(&calledMultiply)));
+    check(MatSetOption(system, MAT_SYMMETRIC, PETSC_TRUE));
+    check(MatCreateVecs(system, solution.fresh(), rightSide.fresh()));
+  }
+  template <class Operations>
+  void makeMatrix(MPI_Comm ranks, Operations& operations) {
     const PetscInt n = layout.blocks() * B;
     // blocks of each row, left of the own columns or right of them, and among them
     std::vector<PetscInt> own, other;
@@ -191,8 +252,9 @@ struct PetscLinearSolver {
     check(MatSetOption(system, MAT_SYMMETRY_ETERNAL, PETSC_TRUE));
     check(MatSetOption(system, MAT_NEW_NONZERO_ALLOCATION_ERR, PETSC_TRUE));
     check(MatCreateVecs(system, solution.fresh(), rightSide.fresh()));
-    giveRigidMotions(ranks, operations);
-
+    giveRigidMotions(operations);
+  }
+  void makeMethod(MPI_Comm ranks) {
     check(KSPCreate(ranks, method.fresh()));
     check(KSPSetOperators(method, system, system));
     check(KSPSetType(method, solver.c_str()));
@@ -202,7 +264,8 @@ struct PetscLinearSolver {
     check(KSPSetTolerances(method, tolerance, 0, PETSC_DEFAULT, iterations));
     PC pc = nullptr;
     check(KSPGetPC(method, &pc));
-    check(PCSetType(pc, preconditioner.c_str()));
+    check(PCSetType(pc, ownMultigrid() ? PCSHELL : preconditioner.c_str()));
+    if (ownMultigrid()) check(PCShellSetApply(pc, &calledPrecondition));
     check(PetscOptionsCreate(ofPetsc.fresh()));
     check(PetscOptionsInsertString(ofPetsc, options.c_str()));
     for (PetscObject o : {reinterpret_cast<PetscObject>(KSP(method)), reinterpret_cast<PetscObject>(pc)})
@@ -212,7 +275,7 @@ struct PetscLinearSolver {
   }
   // of points in space, at rest
   template <class Operations>
-  void giveRigidMotions(MPI_Comm ranks, Operations& operations) {
+  void giveRigidMotions(Operations& operations) {
     bool points = B == 3;
     std::vector<PetscScalar> places;
     operations.forEachIndependent([&](auto& s) {
@@ -232,7 +295,6 @@ struct PetscLinearSolver {
     put(coordinates, [&](PetscInt i) { return places[std::size_t(i)]; });
     check(MatNullSpaceCreateRigidBody(coordinates, rigid.fresh()));
     check(MatSetNearNullSpace(system, rigid));
-    static_cast<void>(ranks);
   }
 
   void fill() {
@@ -284,16 +346,46 @@ struct PetscLinearSolver {
       put(solution, [&](PetscInt i) { return PetscScalar(x[Eigen::Index(dofOf(i))]); });
     }
     check(KSPSetInitialGuessNonzero(method, warm ? PETSC_TRUE : PETSC_FALSE));
-    check(KSPSolve(method, rightSide, solution));
+    // this object may have come here as a copy of another one
+    MultiVecDeriv<Operations> direction(operations), product(operations);
+    if (matrixFree()) {
+      check(MatShellSetContext(system, this));
+      multiply = [&](PetscScalar const* in, PetscScalar* out) {
+        takeScalars(in);
+        operations.scatter(direction.id, x);
+        product.clear();
+        operations.addMBKdx(product.id, direction.id, last);
+        operations.projectResponse(product.id);
+        operations.gather(x, product.id);
+        for (PetscInt i = 0; i < layout.blocks() * B; ++i) out[i] = PetscScalar(x[Eigen::Index(dofOf(i))]);
+      };
+    }
+    if (ownMultigrid()) {
+      PC pc = nullptr;
+      check(KSPGetPC(method, &pc));
+      check(PCShellSetContext(pc, this));
+      precondition = [&](PetscScalar const* in, PetscScalar* out) { multigrid.apply(operations, in, out); };
+    }
+    if constexpr (distributes<Operations>) operations.root.distribution().ranks().inside("a solver of PETSc");
+    const PetscErrorCode code = KSPSolve(method, rightSide, solution);
+    if constexpr (distributes<Operations>) operations.root.distribution().ranks().working();
+    multiply = precondition = nullptr;
+    if (thrown) std::rethrow_exception(std::exchange(thrown, nullptr));
+    check(code);
     refuseUnread();
     refuseUnconverged();
     PetscScalar const* found = nullptr;
     check(VecGetArrayRead(solution, &found));
-    x.setZero();
-    for (PetscInt i = 0; i < layout.blocks() * B; ++i)
-      x[Eigen::Index(dofOf(i))] = typename Matrix::Real(found[i]);
+    takeScalars(found);
     check(VecRestoreArrayRead(solution, &found));
     operations.scatter(to.id, x);
+  }
+
+  // x at what is this rank's; zero elsewhere
+  void takeScalars(PetscScalar const* from) {
+    x.setZero();
+    for (PetscInt i = 0; i < layout.blocks() * B; ++i)
+      x[Eigen::Index(dofOf(i))] = typename Matrix::Real(from[i]);
   }
 
   // (some are read when the preconditioner is made, in the first solve)

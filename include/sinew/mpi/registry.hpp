@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/contact.hpp>
 #include <sinew/core/registry.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
+#include <sinew/mechanics.hpp>
 #include <sinew/mpi/petsc_linear_solver.hpp>
 #include <sinew/mpi/simulation.hpp>
 #include <sinew/runtime/read_scene.hpp>
@@ -12,11 +14,30 @@ namespace sinew::mpi {
 
 /// What scene files may have that several processes step together: the classes that are distributed, and
 /// engines that make their data before the scene starts.
-struct Distributable : Registry<Gravity, MeshGmshLoader, MeshVTKLoader, MeshOBJLoader, BoxROI<Vec3d>,
-                                SphereROI<Vec3d>, PlaneROI<Vec3d>, MeshTopology, TetrahedronTopology,
-                                MechanicalObject<Vec3d>, UniformMass<Vec3d>, DiagonalMass<Vec3d>,
-                                TetrahedronFEMForceField<Vec3d>, FixedConstraint<Vec3d>, EulerImplicitSolver,
-                                EulerExplicitSolver, CGLinearSolver<>, PetscLinearSolver<>> {
+using DistributableBodies =
+    Registry<Gravity, MeshGmshLoader, MeshVTKLoader, MeshOBJLoader, BoxROI<Vec3d>, SphereROI<Vec3d>,
+             PlaneROI<Vec3d>, MeshTopology, TetrahedronTopology, MechanicalObject<Vec3d>, UniformMass<Vec3d>,
+             DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver, CGLinearSolver<>,
+             PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>, SubsetMapping<Vec3d, Vec3d>,
+             BarycentricMapping<Vec3d, Vec3d>>;
+using DistributableForces =
+    Registry<TetrahedronFEMForceField<Vec3d>, HexahedronFEMForceField<Vec3d>, MeshSpringForceField<Vec3d>,
+             StiffSpringForceField<Vec3d>, PlaneForceField<Vec3d>, SphereForceField<Vec3d>,
+             ConstantForceField<Vec3d>, RestShapeSpringsForceField<Vec3d>,
+             UniformVelocityDampingForceField<Vec3d>>;
+using DistributableConstraints =
+    Registry<FixedConstraint<Vec3d>, PartialFixedConstraint<Vec3d>, FixedPlaneConstraint<Vec3d>,
+             LinearMovementConstraint<Vec3d>, LinearVelocityConstraint<Vec3d>,
+             AffineMovementConstraint<Vec3d>, OscillatorConstraint<Vec3d>, ParabolicConstraint<Vec3d>,
+             HermiteSplineConstraint<Vec3d>, ProjectDirectionConstraint<Vec3d>,
+             ProjectToPointConstraint<Vec3d>, ProjectToLineConstraint<Vec3d>,
+             ProjectToPlaneConstraint<Vec3d>>;
+using DistributableContact =
+    Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
+             LocalMinDistance, DefaultContactManager, PointCollisionModel<Vec3d>, LineCollisionModel<Vec3d>,
+             TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>>;
+struct Distributable
+    : Registry<DistributableBodies, DistributableForces, DistributableConstraints, DistributableContact> {
   using Distribution = mpi::Distribution;
 };
 

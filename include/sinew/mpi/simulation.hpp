@@ -12,7 +12,11 @@
 #include <sinew/mpi/share_out.hpp>
 #include <sinew/scene/simulation.hpp>
 
+#include <cstddef>
 #include <memory>
+#include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -32,13 +36,15 @@ class DistributedSimulation {
   void init() {
     init([](auto const&) {});
   }
-  /// f(scope of the root) sees the whole scene before it is shared out.
+  /// f(scope of the root) sees the whole scene before it is shared out. Another time and step than 0 are
+  /// those of a checkpoint, which may be of another number of ranks.
   template <class F>
-  void init(F&& f) {
+  void init(F&& f, double time = 0, long step = 0) {
     ranks_->collectively("init", [&] {
       refuse_undistributed(scopeOf(local_.root()));
-      local_.init();
+      local_.init(time, step);
       f(scopeOf(local_.root()));
+      if (keepsWhole_ && ranks_->rank() == 0) whole_.emplace(local_.root());
       local_.change([&](auto& next) {
         const auto scope = scopeOf(next);
         return ShareOut(scope, next.distribution()).apply();
@@ -46,7 +52,16 @@ class DistributedSimulation {
     });
   }
   void animate(double dt) {
-    ranks_->collectively("step", [&] { local_.animate(dt); });
+    ranks_->collectively("step " + std::to_string(local_.step() + 1), [&] { local_.animate(dt); });
+  }
+
+  /// Before init: rank 0 keeps the whole scene beside its part, for whole().
+  void keepWhole() { keepsWhole_ = true; }
+  /// The scene as one process would have it now, on rank 0, and null on the others: what a checkpoint is made
+  /// of. Throws Error where a component keeps values from step to step that are not gathered.
+  N const* whole() {
+    ranks_->collectively("the whole scene", [&] { gather(); });
+    return whole_ ? &*whole_ : nullptr;
   }
 
   double time() const { return local_.time(); }
@@ -55,6 +70,18 @@ class DistributedSimulation {
   /// The part of this rank: own points, then ghosts.
   auto& root() { return local_.root(); }
   auto scope() { return scopeOf(local_.root()); }
+  /// Positions and velocities of ghosts are those of their owners.
+  void bringGhosts() {
+    ranks_->collectively("ghost points", [&] {
+      const auto all = scope();
+      MechanicalOperations operations(all, local_.time());
+      operations.bringGhosts(vec_id::position, vec_id::velocity);
+      operations.propagate(vec_id::position, vec_id::velocity);
+    });
+  }
+  /// What is known of the points of a state that is shared out.
+  Halo const& halo(auto const& state) { return local_.root().distribution().halo(state.halo); }
+  Traffic const& traffic() { return local_.root().distribution().traffic(); }
   /// A vector of a state, at all points of the scene, in its order.
   template <class State, class Id>
   auto everywhere(State& state, Id id) {
@@ -67,8 +94,59 @@ class DistributedSimulation {
  private:
   std::shared_ptr<Communicator> ranks_;
   Simulation<DistributedNode<N>> local_;
+  bool keepsWhole_ = false;
+  std::optional<DistributedNode<N>> whole_{};
   static constexpr NoScope above_{};
 
+  // contacts, which each rank finds, of points that it has in the order of the whole scene
+  template <class C>
+  static constexpr bool sameOnAll = HasRole<C, role::ContactManager>;
+  // other lists that steps change, beside vectors of states
+  template <class C>
+  static void refuseKept(C const& c, std::string const& where) {
+    if constexpr (requires { C::state(); } && !sameOnAll<C>)
+      hana::for_each(C::state(), [&](auto const& fd) {
+        auto const& value = c.*fd.member;
+        if constexpr (requires { value.empty(); })
+          if (!value.empty())
+            throw Error(
+                text(where, ": ", component_name<C>()),
+                text("keeps ",
+                     fd.name,
+                     " from step to step, which is not gathered from ranks yet; run the scene without "
+                     "checkpoints, or in one process"));
+      });
+  }
+  void gather() {
+    if (!keepsWhole_) throw Error("DistributedSimulation::whole", "call keepWhole() before init()");
+    // both trees have the same components in the same order
+    std::vector<void*> here;
+    traverse(scope(), on<AnyRole>([&](auto& c, auto const& at) {
+               here.push_back(&c);
+               refuseKept(c, at.path());
+             }));
+    auto& parts = local_.root().distribution();
+    std::size_t next = 0;
+    if (whole_) {
+      traverse(scopeOf(*whole_), on<AnyRole>([&](auto& c, auto const&) {
+                 using C = std::decay_t<decltype(c)>;
+                 C const& from = *static_cast<C const*>(here[next++]);
+                 if constexpr (HasRole<C, role::State>) {
+                   c.position = parts.everywhere(from, from.position);
+                   c.velocity = parts.everywhere(from, from.velocity);
+                   c.dx = parts.everywhere(from, from.dx);
+                 } else if constexpr (sameOnAll<C>) {
+                   copy_fields(from, C::state(), c, C::state());
+                 }
+               }));
+    } else {
+      traverse(scope(), on<role::State>([&](auto& s, auto const&) {
+                 parts.everywhere(s, s.position);
+                 parts.everywhere(s, s.velocity);
+                 parts.everywhere(s, s.dx);
+               }));
+    }
+  }
   static auto scopeOf(DistributedNode<N>& root) {
     using S = typename ScopeOf<DistributedNode<N>, NoScope>::type;
     return S{root, root.aboveRoot};

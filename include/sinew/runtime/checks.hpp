@@ -65,8 +65,8 @@ struct RuntimeFacts {
   using Rule = rules::Rule;
   Scope const& scope;
   RuntimeEntry<R>& entry;
-  std::string_view dataTypes{}, in{}, out{};  // of the component
-  std::vector<std::string> paths{};           // of its ends or parents
+  std::string_view dataTypes{}, in{}, in2{}, out{};  // of the component
+  std::vector<std::string> paths{};                  // of its ends or parents
   Rule wrongNames = Rule::none;
 
   Rule named() const { return wrongNames; }
@@ -92,6 +92,9 @@ struct RuntimeFacts {
   bool pipelineAbove() const {
     for (auto* n = &scope.node; n; n = n->parent())
       if (Scope(*n).template has<role::CollisionPipeline>()) return true;
+    for (auto const& ofRoot : scope.node.top().children())
+      for (auto const& part : ofRoot->components())
+        if (Scope::lists_models(part.component)) return true;
     return false;
   }
   bool pipelineHere() const { return scope.template has<role::CollisionPipeline>(); }
@@ -118,11 +121,13 @@ struct RuntimeFacts {
   std::vector<Place> parents() const {
     std::vector<Place> found;
     for (Node* node : nodes()) {
-      found.push_back(node ? place(Scope(*node), in) : Place{.there = false});
+      found.push_back(node ? place(Scope(*node), inOf(found.size())) : Place{.there = false});
       found.back().before = node && comes_before(*node, scope.node);
     }
     return found;
   }
+
+  std::string_view inOf(std::size_t parent) const { return parent == 1 && !in2.empty() ? in2 : in; }
 
   std::string details(rules::Broken const& broken) const {
     const std::size_t which = broken.which;
@@ -149,7 +154,8 @@ struct RuntimeFacts {
       case Rule::parentWithoutState:
         return text("at '", paths[which], "'");
       case Rule::parentOfOtherDataTypes:
-        return text(in, " from ", data_types_at(Scope(*nodes()[which])), ", at '", paths[which], "'");
+        return text(
+            inOf(which), " from ", data_types_at(Scope(*nodes()[which])), ", at '", paths[which], "'");
       case Rule::endOfOtherDataTypes:
         return text(dataTypes,
                     " on ",
@@ -223,6 +229,10 @@ struct RuntimeChecker {
                     "runtime tree; use LinkedParents.");
       facts.paths = c.parents.paths;
       if (facts.paths.empty()) facts.wrongNames = rules::Rule::noParents;
+      if constexpr (HasTwoKindsOfParents<C>) {
+        facts.in2 = data_types_name<typename C::In2>::value;
+        if (facts.paths.size() != 2) facts.wrongNames = rules::Rule::notTwoParents;
+      }
     }
     if (const rules::Broken broken = rules::broken<kind>(facts); broken.rule != rules::Rule::none)
       say(scope, entry, broken.rule, facts.details(broken));

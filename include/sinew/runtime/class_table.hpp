@@ -83,7 +83,9 @@ struct ClassTraits {
   bool ofPositions = false;         // an engine over points as they are, where others take those at rest
   bool sizedValues = false;         // an engine over values of any size (engine/values.hpp)
   std::string_view law;             // an output of an engine that goes on in each step, by what takes it
+  bool overElements = false;        // a collision model that is nothing without elements
   bool joinsTopologies = false;  // an engine that makes the elements of its `output` of those of its `input`
+  std::string_view followsObject2;  // the field that has the positions of the state that `object2` names
 };
 
 /// What scene files, messages and reference pages know of one class of a registry.
@@ -92,9 +94,9 @@ struct ClassInfo {
   std::string_view name, aliases;
   RoleKind role;
   std::string dataTypes;  // "Vec3d"; "Rigid3d,Vec3d" of a mapping; the matrix of a linear solver; or nothing
-  std::string_view in, out;  // of a mapping
-  std::string cppName;       // "UniformMass<Vec3d>"
-  bool joins = false;        // has ends object1 and object2
+  std::string_view in, in2, out;  // of a mapping; in2: of the second of its two parents
+  std::string cppName;            // "UniformMass<Vec3d>"
+  bool joins = false;             // has ends object1 and object2
   std::vector<FieldInfo> fields;
   bool severalParents = false;  // a mapping
   ClassTraits traits{};
@@ -287,12 +289,14 @@ constexpr ClassTraits class_traits() {
   if constexpr (requires { C::ofPositions; }) traits.ofPositions = C::ofPositions;
   if constexpr (requires { C::sizedValues; }) traits.sizedValues = C::sizedValues;
   if constexpr (requires { C::law; }) traits.law = C::law;
+  if constexpr (requires { C::overElements; }) traits.overElements = C::overElements;
   if constexpr (requires { C::joinsTopologies; }) traits.joinsTopologies = C::joinsTopologies;
+  if constexpr (requires { C::followsObject2; }) traits.followsObject2 = C::followsObject2;
   return traits;
 }
 
 struct ClassRow {
-  std::string_view name, aliases, dataTypes, in, out;
+  std::string_view name, aliases, dataTypes, in, in2, out;
   RoleKind role;
   bool joins, severalParents;
   ClassTraits traits;
@@ -306,6 +310,7 @@ constexpr ClassRow class_row() {
                .aliases = class_aliases<C>(),
                .dataTypes = {},
                .in = {},
+               .in2 = {},
                .out = {},
                .role = role_kind<typename C::Role>(),
                .joins = HasLinkedEnds<C>,
@@ -317,6 +322,7 @@ constexpr ClassRow class_row() {
   if constexpr (requires { typename C::In; }) {
     row.in = data_types_name<typename C::In>::value;
     row.out = data_types_name<typename C::Out>::value;
+    if constexpr (requires { typename C::In2; }) row.in2 = data_types_name<typename C::In2>::value;
   } else if constexpr (requires { C::templateName; }) {
     row.dataTypes = C::templateName;
   } else if constexpr (requires { typename C::DataTypes; } && !HasRole<C, role::VisualModel>) {
@@ -335,8 +341,11 @@ inline ClassInfo class_info(int type, ClassRow const& row, std::string cppName, 
                  .name = row.name,
                  .aliases = row.aliases,
                  .role = row.role,
-                 .dataTypes = row.in.empty() ? std::string(row.dataTypes) : text(row.in, ',', row.out),
+                 .dataTypes = row.in.empty()    ? std::string(row.dataTypes)
+                              : row.in2.empty() ? text(row.in, ',', row.out)
+                                                : text(row.in, ',', row.in2, ',', row.out),
                  .in = row.in,
+                 .in2 = row.in2,
                  .out = row.out,
                  .cppName = row.role == RoleKind::visualModel ? std::string(row.name) : std::move(cppName),
                  .joins = row.joins,

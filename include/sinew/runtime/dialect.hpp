@@ -139,14 +139,20 @@ inline constexpr std::array ofViews = std::to_array<std::string_view>({"VisualSt
 /// Shows values of a state by colours of its own: what is mapped onto it is a picture, too.
 inline constexpr std::string_view shownByColours = "DataDisplay";
 
-/// Forces that have the mass of their elements with them: a force and a MeshMatrixMass.
+/// Forces that have the mass of their elements with them: a force and a mass.
 struct ForceAndMass {
-  std::string_view name, force;
-  bool fillWeighted;  // cells of a grid over a surface weigh by how filled they are
+  std::string_view name, force, mass;
+  bool fillWeighted;               // cells of a grid over a surface weigh by how filled they are
+  std::string_view interpolation;  // of hexahedra that are made of finer cells; empty for others
 };
-inline constexpr std::array forcesAndMasses =
-    std::to_array<ForceAndMass>({{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", true},
-                                 {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", false}});
+inline constexpr std::string_view compositeForce = "HexahedronCompositeFEMForceField",
+                                  compositeMass = "HexahedronCompositeFEMMass",
+                                  compositeMapping = "HexahedronCompositeFEMMapping";
+inline constexpr std::array forcesAndMasses = std::to_array<ForceAndMass>(
+    {{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", true, ""},
+     {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", false, ""},
+     {"HexahedronCompositeFEMForceFieldAndMass", compositeForce, compositeMass, false, "condensed"},
+     {"NonUniformHexahedronFEMForceFieldAndMass", compositeForce, compositeMass, false, "trilinear"}});
 constexpr ForceAndMass const* force_and_mass(std::string_view tag) {
   for (auto const& both : forcesAndMasses)
     if (both.name == tag) return &both;
@@ -165,16 +171,11 @@ constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag)
 
 /// What changes the motion in SOFA, and would be missed.
 inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
-    {{"OBBModel CapsuleModel CylinderModel RayModel "
-      "RayCollisionModel",
-      "collides with nothing here; take triangles, lines, points, spheres or convex hulls"},
+    {{"CylinderModel RayModel RayCollisionModel",
+      "collides with nothing here; take triangles, lines, points, spheres, capsules, boxes or convex hulls"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
-     {"RayTraceDetection RayTraceNarrowPhase CompositeCollisionPipeline",
-      "is no stage of collision here; take DefaultPipeline, BVHNarrowPhase and DefaultContactManager"}});
-
-/// Collide in SOFA with points, and only where DiscreteIntersection tests them
-/// (TetrahedronDiscreteIntersection.cpp).
-inline constexpr std::string_view tetrahedronModels = "TetrahedronModel TetrahedronCollisionModel";
+     {"RayTraceDetection",
+      "is two stages here, as it is in SOFA by now; take BruteForceBroadPhase and RayTraceNarrowPhase"}});
 
 /// What prepares or solves something that the scene may not have at all.
 inline constexpr std::array inert = std::to_array<ClassesLeftOut>(
@@ -197,7 +198,8 @@ struct ClassOfPackage {
 };
 inline constexpr std::array classesOfPackages = std::to_array<ClassOfPackage>(
     {{"ConvexCollisionModel TBulletConvexHullModel BulletConvexHullModel BtConvexHullModel BulletConvexHull "
-      "BtConvexHull",
+      "BtConvexHull OBBCollisionModel OBBModel TOBBModel OBB RigidCapsuleCollisionModel RigidCapsuleModel "
+      "RigidCapsule",
       "libccd",
       "libccd-dev"}});
 
@@ -240,7 +242,8 @@ inline constexpr std::array standsFor = std::to_array<StandsFor>(
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "method", "small"},
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "youngModulus", "1000"},
      {"TetrahedralTensorMassForceField", "TetrahedronFEMForceField", "poissonRatio", "0.3"},
-     {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"}});
+     {"NodalLinearDampingForceField", "UniformVelocityDampingForceField", "implicit", "1"},
+     {"InteractionEllipsoidForceField", "InteractionEllipsoidForceField", "object2_forces", "1"}});
 
 /// Words that such a class has for values of an attribute of the other one.
 struct OtherWord {
@@ -260,13 +263,19 @@ struct OverElements {
 inline constexpr std::array overElements = std::to_array<OverElements>(
     {{"CorotationalFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "large"},
      {"CorotationalFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "large"},
+     {"CorotationalFEMForceField", "Prism", "PrismFEMForceField", "method", "polar"},
+     {"CorotationalFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "polar"},
      {"LinearSmallStrainFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "small"},
      {"LinearSmallStrainFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField", "Prism", "PrismFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "small"},
      {"FEMMass", "Edge", "MeshMatrixMass", "elements", "edges"},
      {"FEMMass", "Triangle", "MeshMatrixMass", "elements", "triangles"},
      {"FEMMass", "Quad", "MeshMatrixMass", "elements", "quads"},
      {"FEMMass", "Tetrahedron", "MeshMatrixMass", "elements", "tetrahedra"},
-     {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"}});
+     {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"},
+     {"FEMMass", "Prism", "MeshMatrixMass", "elements", "prisms"},
+     {"FEMMass", "Pyramid", "MeshMatrixMass", "elements", "pyramids"}});
 constexpr bool is_over_elements(std::string_view tag) {
   for (auto const& o : overElements)
     if (o.name == tag) return true;
@@ -297,6 +306,12 @@ inline constexpr std::array anotherMethod = std::to_array<AnotherMethod>(
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
      {"SparseLUSolver",
       "the matrix is factorised as L D L', as with SparseLDLSolver, and has to be symmetric"},
+     {"TetrahedronCollisionModel",
+      "it collides by its surface with all models, and keeps points and spheres out of its inside; SOFA "
+      "tests it only by DiscreteIntersection, against points"},
+     {"TetrahedronModel",
+      "it collides by its surface with all models, and keeps points and spheres out of its inside; SOFA "
+      "tests it only by DiscreteIntersection, against points"},
      {"SVDLinearSolver",
       "the matrix is factorised as L D L', and has to be symmetric and not singular; SOFA's takes the "
       "singular "
@@ -389,6 +404,7 @@ inline bool container_holds(std::string_view tag, std::string_view list) {
   if (list == "triangles") return is("TriangleSet") || is("TetrahedronSet");
   if (list == "quads") return is("QuadSet") || is("HexahedronSet");
   if (list == "tetrahedra") return is("TetrahedronSet");
+  if (list == "pyramids" || list == "prisms") return false;
   return list != "hexahedra" || is("HexahedronSet");
 }
 inline bool class_without_meaning(std::string_view name) {

@@ -99,9 +99,9 @@ ProjectionTarget projection_target() {
 }
 
 // row.. += Ji' K Jj
-template <AssemblyPhase Phase, class Real, int N>
+template <AssemblyPhase Phase, class Real, int N, int M>
 void place_block(BlockTarget const& target, int row, int column, int columnsI, double const* ji, int columnsJ,
-                 double const* jj, Mat<Real, N> const& k) {
+                 double const* jj, Mat<Real, N, M> const& k) {
   auto put = [&](auto const& block) {
     if constexpr (Phase == AssemblyPhase::add) {
       if constexpr (sizeof(Real) == 8)
@@ -112,10 +112,10 @@ void place_block(BlockTarget const& target, int row, int column, int columnsI, d
   };
   if constexpr (Phase == AssemblyPhase::pattern) {
     target.preallocate(
-        target.matrix, row, column, columnsI == 0 ? N : columnsI, columnsJ == 0 ? N : columnsJ);
+        target.matrix, row, column, columnsI == 0 ? N : columnsI, columnsJ == 0 ? M : columnsJ);
   } else {
     with_jacobian<Real, N>(columnsI, ji, [&](auto const& left) {
-      with_jacobian<Real, N>(columnsJ, jj, [&](auto const& right) {
+      with_jacobian<Real, M>(columnsJ, jj, [&](auto const& right) {
         using Left = std::decay_t<decltype(left)>;
         using Right = std::decay_t<decltype(right)>;
         if constexpr (std::is_same_v<Left, IdentityJacobian> && std::is_same_v<Right, IdentityJacobian>)
@@ -185,11 +185,11 @@ struct ErasedSink {
   void add(int i, int j, K const& k) const {
     if constexpr (Phase != AssemblyPhase::bind) {
       using Real = typename K::Scalar;
-      constexpr int n = K::RowsAtCompileTime;
-      const Mat<Real, n> block = k;
+      constexpr int n = K::RowsAtCompileTime, m = K::ColsAtCompileTime;
+      const Mat<Real, n, m> block = k;
       expand_point(SideI == 0 ? first : second, i, [&](int row, int columnsI, double const* ji) {
         expand_point(SideJ == 0 ? first : second, j, [&](int column, int columnsJ, double const* jj) {
-          detail::place_block<Phase, Real, n>(target, row, column, columnsI, ji, columnsJ, jj, block);
+          detail::place_block<Phase, Real, n, m>(target, row, column, columnsI, ji, columnsJ, jj, block);
         });
       });
     }

@@ -65,11 +65,17 @@ class RuntimeNode {
   std::vector<std::string> warnings{};  // of the top node: what the last init has noticed
   std::vector<ViewElement> view{};      // of the top node: what a scene file says of how it is looked at
   LiveGraph<R> live{};                  // what follows other values while the scene runs
+  std::vector<std::size_t> listing{};   // of the top node: children whose pipelines list their models
   Profile* profile = nullptr;           // of the top node: what times its steps; copies are not timed
 
   explicit RuntimeNode(std::string n = "root", Verdict = {}) : name(std::move(n)) {}
   RuntimeNode(RuntimeNode const& other)
-      : name(other.name), mount(other.mount), view(other.view), live(other.live), entries_(other.entries_) {
+      : name(other.name),
+        mount(other.mount),
+        view(other.view),
+        live(other.live),
+        listing(other.listing),
+        entries_(other.entries_) {
     for (auto const& child : other.children_) children_.push_back(std::make_unique<RuntimeNode>(*child));
     adopt();
   }
@@ -79,6 +85,7 @@ class RuntimeNode {
         warnings(std::move(other.warnings)),
         view(std::move(other.view)),
         live(std::move(other.live)),
+        listing(std::move(other.listing)),
         profile(std::exchange(other.profile, nullptr)),
         entries_(std::move(other.entries_)),
         children_(std::move(other.children_)) {
@@ -90,6 +97,7 @@ class RuntimeNode {
     warnings.swap(other.warnings);
     view.swap(other.view);
     std::swap(live, other.live);
+    listing.swap(other.listing);
     entries_.swap(other.entries_);
     children_.swap(other.children_);
     adopt();

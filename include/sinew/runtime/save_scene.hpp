@@ -133,7 +133,9 @@ class SceneWriter {
       if (auto const* parents = component.parents()) {
         std::string input;
         for (auto const& path : *parents) input += text(input.empty() ? "@" : " @", path);
-        set(element, "input", input);
+        if (info.in2.empty()) set(element, "input", input);
+        for (std::size_t k = 0; !info.in2.empty() && k < parents->size(); ++k)
+          set(element, text("input", k + 1), text('@', (*parents)[k]));
       }
       if (Linked const* ends = component.ends()) {
         set(element, "object1", text('@', ends->object1));

@@ -141,7 +141,10 @@ struct RuntimeScope {
            : owner.node.state() ? owner.node.state()->component.address()
                                 : nullptr;
   }
-  void const* pointsAddress() const { return overParent() ? parentScope().stateAddress() : stateAddress(); }
+  void const* pointsAddress() const {
+    if (overEntries()) return nullptr;
+    return overParent() ? parentScope().stateAddress() : stateAddress();
+  }
   void const* topologyAddress() const {
     if (atMount) return mount().scope ? mount().topologyAddress(mount().scope) : nullptr;
     if (node.topology()) return node.topology()->component.address();
@@ -182,8 +185,16 @@ struct RuntimeScope {
           [&](auto& mapping) { over = over_parent<std::decay_t<decltype(mapping)>>; });
     return over;
   }
+  bool overEntries() const {
+    bool over = false;
+    if (!atMount && node.mapping())
+      node.mapping()->component.template visit<role::Mapping>(
+          [&](auto& mapping) { over = over_entries<std::decay_t<decltype(mapping)>>; });
+    return over;
+  }
   template <class F>
   void withContext(F&& f) const {
+    if (overEntries()) return;
     if (overParent()) {
       node.mapping()->component.template visit<role::Mapping>(
           [&](auto& mapping) { f(parentContext<typename std::decay_t<decltype(mapping)>::In>()); });
@@ -310,19 +321,24 @@ struct RuntimeScope {
   }
   template <class M, class F>
   void forEachParent(M const&, F&& f) const {
-    std::size_t k = 0;
-    for (auto* parent : endsOf(*node.mapping())) f(k++, RuntimeScope(*parent).stateScope());
+    auto const& parents = endsOf(*node.mapping());
+    if constexpr (HasTwoKindsOfParents<M>) {
+      f(ParentNumber<0>{}, RuntimeScope(*parents[0]).stateScope());
+      f(ParentNumber<1>{}, RuntimeScope(*parents[1]).stateScope());
+    } else {
+      for (std::size_t k = 0; k < parents.size(); ++k) f(k, RuntimeScope(*parents[k]).stateScope());
+    }
   }
   template <class M, class F>
   void withMapped(M& mapping, F&& f) const {
-    using In = typename M::In;
     withChild(mapping, [&](auto& child) {
       if constexpr (HasParents<M>)
-        forEachParent(mapping, [&](std::size_t k, RuntimeScope const& parent) {
-          f(mapping.parts[k], child, parent.template state<In>());
+        forEachParent(mapping, [&](auto k, RuntimeScope const& parent) {
+          auto&& part = mapping.part(k);
+          f(part, child, parent.template state<InOfParent<M, decltype(k)>>());
         });
       else
-        f(mapping, child, parentScope().template state<In>());
+        f(mapping, child, parentScope().template state<typename M::In>());
     });
   }
   /// The nodes that an interaction joins, or that a mapping with several parents follows; nulls where there
@@ -388,10 +404,32 @@ struct RuntimeScope {
   }
   template <class F>
   void withContacts(F&& f) const {
+    withNearestContacts(f);
+    if (atMount) return;
+    NodeType& top = node.top();
+    for (const std::size_t child : top.listing)
+      for (auto& entry : top.children()[child]->components())
+        if (entry.component.template visit<role::ContactManager>(f)) break;
+  }
+  template <class F>
+  void withNearestContacts(F&& f) const {
     if (atMount) return;
     for (auto& entry : node.components())
       if (entry.component.template visit<role::ContactManager>(f)) return;
-    above().withContacts(f);
+    above().withNearestContacts(f);
+  }
+  /// Finds the children of this top node whose pipelines list their models.
+  void findListing() const {
+    node.listing.clear();
+    for (std::size_t i = 0; i < node.children().size(); ++i)
+      for (auto& entry : node.children()[i]->components())
+        if (lists_models(entry.component)) node.listing.push_back(i);
+  }
+  static bool lists_models(AnyComponent<R> const& component) {
+    bool lists = false;
+    const_cast<AnyComponent<R>&>(component).template visit<role::CollisionPipeline>(
+        [&](auto const& pipeline) { lists = ListsModels<std::decay_t<decltype(pipeline)>>; });
+    return lists;
   }
 
  private:
@@ -553,7 +591,7 @@ void RuntimeScope<R>::expand(int point, JacobianVisitor const& visitor) const {
     };
     if constexpr (HasParents<M>)
       forEachParent(mapping,
-                    [&](std::size_t k, RuntimeScope const& parent) { expandPart(mapping.parts[k], parent); });
+                    [&](auto k, RuntimeScope const& parent) { expandPart(mapping.part(k), parent); });
     else
       expandPart(mapping, above().stateScope());
   });

@@ -97,9 +97,7 @@ struct Carving {
                  if constexpr (editable_topology<std::decay_t<decltype(t)>>) {
                    if (scope.pointsAddress() != state) return;
                    const TopologyView view = t.view();
-                   const int dimension = !view.tetrahedra.empty() || !view.hexahedra.empty() ? 3
-                                         : !view.triangles.empty() || !view.quads.empty()    ? 2
-                                                                                             : 0;
+                   const int dimension = dimension_of(view);
                    if (dimension < highest || (dimension == highest && stateOfBest == state) || dimension < 2)
                      return;
                    highest = dimension, stateOfBest = state;
@@ -157,24 +155,17 @@ struct Carving {
       numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
     };
     ElementNumbers& gone = entry->elements;
-    const bool volume = !body.view.tetrahedra.empty() || !body.view.hexahedra.empty();
-    if (volume) {
-      collect(body.view.tetrahedra, gone.tetrahedra);
-      collect(body.view.hexahedra, gone.hexahedra);
-    } else {
-      collect(body.view.triangles, gone.triangles);
-      collect(body.view.quads, gone.quads);
-    }
-    auto count = [](auto const& a, auto const& b) { return a.size() + b.size(); };
-    entry->count = volume ? count(gone.tetrahedra, gone.hexahedra) : count(gone.triangles, gone.quads);
-    if (entry->count < (volume ? count(body.view.tetrahedra, body.view.hexahedra)
-                               : count(body.view.triangles, body.view.quads)))
-      return;
-    for (auto* numbers : {&gone.tetrahedra, &gone.hexahedra, &gone.triangles, &gone.quads})
-      if (!numbers->empty()) {
-        numbers->erase(numbers->begin());
-        break;
-      }
+    std::size_t whole = 0;
+    entry->count = 0;
+    std::vector<Index>* some = nullptr;
+    for_each_highest(body.view, [&](int kind, auto const& list) {
+      std::vector<Index>& numbers = gone.of(kind);
+      collect(list, numbers);
+      whole += list.size(), entry->count += numbers.size();
+      if (!some && !numbers.empty()) some = &numbers;
+    });
+    if (entry->count < whole || !some) return;
+    some->erase(some->begin());
     --entry->count;
     carving.message = text("the last element of ", body.path, " stays: a body must keep one element");
   }

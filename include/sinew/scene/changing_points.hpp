@@ -183,9 +183,7 @@ struct ChangingPoints {
         refuse("it has an entry for each point, or the numbers of some; take it away from a state");
     } else if constexpr (HasRole<C, role::Topology>) {
       if (changes(scope.pointsAddress())) {
-        const TopologyView view = c.view();
-        if (!view.edges.empty() || !view.triangles.empty() || !view.quads.empty() ||
-            !view.tetrahedra.empty() || !view.hexahedra.empty())
+        if (dimension_of(c.view()) > 0)
           refuse("it has elements; leave them out, or give it a state of its own beside one");
       }
     }

@@ -49,6 +49,23 @@ constexpr bool has_above() {
     return S::NodeType::template count<R> > 0 || has_above<typename S::Above, R>();
 }
 
+/// A pipeline of a node right below the root of S lists its models.
+template <class N>
+constexpr bool lists_models = false;
+template <class Name, class... Cs, class Ns>
+constexpr bool lists_models<Node<Name, hana::tuple<Cs...>, Ns>> = (ListsModels<Cs> || ...);
+template <class Cs, class... Ns>
+constexpr bool lists_below(NodeParts<Cs, hana::tuple<Ns...>> const*) {
+  return (lists_models<Ns> || ...);
+}
+template <class S>
+constexpr bool has_listing() {
+  if constexpr (requires { typename S::Above::NodeType; })
+    return has_listing<typename S::Above>();
+  else
+    return lists_below(static_cast<typename S::NodeType const*>(nullptr));
+}
+
 /// Tetrahedra are in reach of components of this scope that act on its points.
 template <class S>
 constexpr bool has_tetrahedra() {
@@ -177,9 +194,15 @@ constexpr Place place_before() {
   if constexpr (!std::is_same_v<P, NoScope>) found.before = comes_before<S, Path>();
   return found;
 }
-template <class S, class D, FixedString... Paths>
+template <class S, class C, FixedString... Paths>
 constexpr std::array<Place, sizeof...(Paths)> places_before(Parents<Paths...>) {
-  return {place_before<S, D, Paths>()...};
+  return []<std::size_t... K>(std::index_sequence<K...>) {
+    return std::array<Place, sizeof...(Paths)>{place_before<S, InOfParent<C, ParentNumber<K>>, Paths>()...};
+  }(std::index_sequence_for<Named<Paths>...>{});
+}
+template <FixedString... Paths>
+constexpr std::size_t count_of(Parents<Paths...>) {
+  return sizeof...(Paths);
 }
 
 /// What rules::broken asks about a component C of a typed node.
@@ -195,7 +218,9 @@ struct Facts {
   static constexpr bool constraintSolver() { return N::template holds<role::ConstraintSolver>; }
   static constexpr bool severalConstraintSolvers() { return count_below<N, role::ConstraintSolver>() > 1; }
   static constexpr bool loopInRoot() { return has_above<S, role::AnimationLoop>(); }
-  static constexpr bool pipelineAbove() { return has_above<S, role::CollisionPipeline>(); }
+  static constexpr bool pipelineAbove() {
+    return has_above<S, role::CollisionPipeline>() || has_listing<S>();
+  }
   static constexpr bool pipelineHere() { return N::template count<role::CollisionPipeline> > 0; }
   static constexpr bool allStages() {
     return N::template count < role::BroadPhase >> 0 && N::template count < role::NarrowPhase >> 0 &&
@@ -219,7 +244,11 @@ struct Facts {
   }
   static constexpr Rule named() {
     if constexpr (HasParents<C>) {
-      return std::is_same_v<typename C::Parents, LinkedParents> ? Rule::parentsByLinks : Rule::none;
+      if constexpr (std::is_same_v<typename C::Parents, LinkedParents>)
+        return Rule::parentsByLinks;
+      else
+        return HasTwoKindsOfParents<C> && count_of(typename C::Parents{}) != 2 ? Rule::notTwoParents
+                                                                               : Rule::none;
     } else {
       return std::is_same_v<typename C::Ends, Linked> ? Rule::endsByLinks : Rule::none;
     }
@@ -233,7 +262,7 @@ struct Facts {
   }
   static constexpr auto parents() {
     if constexpr (named() == Rule::none)
-      return places_before<S, typename C::In>(typename C::Parents{});
+      return places_before<S, C>(typename C::Parents{});
     else
       return std::array<Place, 0>{};
   }

@@ -21,8 +21,9 @@ namespace detail {
 
 template <class C>
 constexpr Shapes shapes_of() {
-  if constexpr (HasRole<C, role::CollisionModel>)
-    return Shapes::of(skeleton(C::shape));
+  if constexpr (HasRole<C, role::CollisionModel>)  // (capsules have ends)
+    return Shapes::of(skeleton(C::shape)) |
+           (C::shape == Shape::capsule ? Shapes::of(Shape::point) : Shapes{});
   else
     return {};
 }
@@ -30,8 +31,8 @@ constexpr Shapes shapes_of() {
 /// has.
 template <class S>
 constexpr Shapes shapes_below();
-template <class S, class Name, class... Cs, class... Ns>
-constexpr Shapes shapes_below(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+template <class S, class... Cs, class... Ns>
+constexpr Shapes shapes_below(NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> const*) {
   return (Shapes{} | ... | shapes_of<Cs>()) |
          (Shapes{} | ... | shapes_below<typename ScopeOf<Ns, S>::type>());
 }
@@ -42,7 +43,7 @@ constexpr Shapes shapes_below() {
     for_each_registered<typename S::Classes>([&]<class C>() constexpr { shapes = shapes | shapes_of<C>(); });
     return shapes;
   } else {
-    return shapes_below<S>(std::type_identity<typename S::NodeType>{});
+    return shapes_below<S>(static_cast<typename S::NodeType const*>(nullptr));
   }
 }
 
@@ -74,25 +75,30 @@ struct Collision {
           s->companions = s->companions | Shapes::of(other->shape);
           if (s->shape == Shape::line && other->shape == Shape::triangle) s->findTriangles(*other);
         }
+    findListing();
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               collect(pipeline, scope);
+               collect(pipeline, modelsOf(pipeline, scope));
+               if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>) pipeline.choose(scope.path());
                with_first<role::ContactManager>(scope, [&](auto& manager) {
                  manager.init(scope.path(), pipeline.surfaces, again);
                  checkMultipliers(manager, scope);
                });
-               with_first<role::Intersection>(scope, [&](auto& intersection) {
-                 if constexpr (LooksAround<std::decay_t<decltype(intersection)>>)
-                   intersection.lookAround(pipeline.surfaces);
-               });
+               auto lookAround = [&](auto& stage) {
+                 if constexpr (LooksAround<std::decay_t<decltype(stage)>>)
+                   stage.lookAround(pipeline.surfaces);
+               };
+               with_first<role::Intersection>(scope, lookAround);
+               with_first<role::NarrowPhase>(scope, lookAround);
                pipeline.near.reserve(pipeline.surfaces.size() * (pipeline.surfaces.size() + 1) / 2);
                for (auto* s : pipeline.surfaces) s->enclose(0, 0);  // the trees are built
-               traverse(scope, on<role::CollisionModel>([](auto& model, auto const& s) {
+               traverse(modelsOf(pipeline, scope), on<role::CollisionModel>([](auto& model, auto const& s) {
                           if constexpr (requires { s.warn(&model, std::string_view()); })
                             if (const std::string wrong = model.surface.wrongWinding(s.gravity());
                                 !wrong.empty())
                               s.warn(&model, wrong);
                         }));
              }));
+    warnOfUnlisted(all);
   }
 
   /// Finds what moves as one, after all is initialised without an Error.
@@ -109,7 +115,11 @@ struct Collision {
   template <class F, class G>
   void detect(double dt, bool byStates, F&& newPattern, G&& byHost) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               if (begin(pipeline, scope, byStates, byHost)) return;
+               if (!begin(pipeline, scope, byStates, byHost)) clearTouched(modelsOf(pipeline, scope));
+             }));
+    traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
+               if constexpr (requires { pipeline.begun; })
+                 if (pipeline.begun) return;
                detectOnHost(pipeline, scope, dt, newPattern);
              }));
   }
@@ -119,7 +129,7 @@ struct Collision {
   void finish(double dt, F&& f) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                using S = std::decay_t<decltype(scope)>;
-               if constexpr (StateContacts<S>::possible) {
+               if constexpr (StateContacts<S>::possible && !ListsModels<std::decay_t<decltype(pipeline)>>) {
                  using Found = typename StateContacts<S>::Found;
                  auto found = Found::others;
                  if (!std::exchange(pipeline.begun, false)) return;
@@ -129,7 +139,12 @@ struct Collision {
                      found = StateContacts<S>{scope}.finish(manager, method);
                    });
                    [[maybe_unused]] const auto span = root.span(Phase::response);
-                   found == Found::others ? manager.manage(dt) : manager.goOn(dt);
+                   if (found == Found::others) {
+                     clearTouched(modelsOf(pipeline, scope));
+                     manager.manage(dt);
+                   } else {
+                     manager.goOn(dt);
+                   }
                    f(pipeline, manager, found == Found::sameRows);
                  });
                }
@@ -137,6 +152,61 @@ struct Collision {
   }
 
  private:
+  // the scope whose models a pipeline collides
+  template <class Pipeline, class S>
+  decltype(auto) modelsOf(Pipeline const&, [[maybe_unused]] S const& scope) const {
+    if constexpr (ListsModels<Pipeline>)
+      return (root);
+    else
+      return (scope);
+  }
+  // pipelines that list their models, which other nodes have to find; a model has one number for all of them
+  void findListing() const {
+    if constexpr (requires { root.findListing(); }) root.findListing();
+    bool listing = false;
+    traverse(root, on<role::CollisionPipeline>([&](auto const& pipeline, auto const& scope) {
+               using Pipeline = std::decay_t<decltype(pipeline)>;
+               if (!ListsModels<Pipeline>) return;
+               listing = true;
+               const std::string path = scope.path();
+               if (std::count(path.begin() + 1, path.end(), '/') > 1)
+                 throw Error(text(path, ": ", component_name<Pipeline>()),
+                             "it stands too deep in the scene; put it and its stages into a node right below "
+                             "the root");
+             }));
+    if (listing)
+      traverse(root, on<role::CollisionPipeline>([&](auto const& pipeline, auto const& scope) {
+                 using Pipeline = std::decay_t<decltype(pipeline)>;
+                 if (!ListsModels<Pipeline> && scope.path() != root.path())
+                   throw Error(text(scope.path(), ": ", component_name<Pipeline>()),
+                               "another pipeline of the scene lists its models; put this one and its stages "
+                               "into the root, or make it one that does");
+               }));
+  }
+  // models that collide with nothing, since no pipeline has them
+  void warnOfUnlisted([[maybe_unused]] std::vector<CollisionSurface*> all) const {
+    bool everything = false, listing = false;
+    traverse(root, on<role::CollisionPipeline>([&](auto const& pipeline, auto const&) {
+               if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>) {
+                 listing = true;
+                 std::erase_if(all, [&](auto const* s) { return pipeline.takes(*s); });
+               } else {
+                 everything = true;
+               }
+             }));
+    if (everything || !listing) return;
+    traverse(root, on<role::CollisionModel>([&](auto& model, auto const& s) {
+               if constexpr (requires { s.warn(&model, std::string_view()); })
+                 if (std::find(all.begin(), all.end(), &model.surface) != all.end())
+                   s.warn(&model, "it collides with nothing, since no SubCollisionPipeline lists it");
+             }));
+  }
+  // (several pipelines may have one model)
+  template <class S>
+  static void clearTouched(S const& models) {
+    traverse(models,
+             on<role::CollisionModel>([](auto& model, auto const&) { model.surface.clearTouched(); }));
+  }
   // f(intersection method) where it is one that a device has
   template <class S, class F>
   static void withIntersection(S const& scope, F&& f) {
@@ -147,7 +217,7 @@ struct Collision {
   // whether states look for all contacts of this step
   template <class Pipeline, class S, class G>
   bool begin(Pipeline& pipeline, S const& scope, bool byStates, G&& byHost) const {
-    if constexpr (!StateContacts<S>::possible) {
+    if constexpr (!StateContacts<S>::possible || ListsModels<Pipeline>) {
       return false;
     } else {
       [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
@@ -213,13 +283,16 @@ struct Collision {
   void detectOnHost(Pipeline& pipeline, S const& scope, double dt, F&& newPattern) const {
     {
       [[maybe_unused]] const auto span = root.span(Phase::positions);
-      collect(pipeline, scope);
+      collect(pipeline, modelsOf(pipeline, scope));
       with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
     }
     with_first<role::Intersection>(scope, [&](auto const& intersection) {
       [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
-      for (auto* s : pipeline.surfaces)
+      for (auto* s : pipeline.surfaces) {
+        if constexpr (ListsModels<Pipeline>)
+          if (!pipeline.takes(*s)) continue;
         s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+      }
     });
     with_first<role::BroadPhase>(scope, [&](auto& broad) {
       [[maybe_unused]] const auto span = root.span(Phase::broadPhase);
@@ -229,8 +302,9 @@ struct Collision {
       with_first<role::NarrowPhase>(scope, [&](auto& narrow) {
         [[maybe_unused]] const auto span = root.span(Phase::narrowPhase);
         with_first<role::Intersection>(scope, [&](auto const& intersection) {
+          using Models = std::decay_t<decltype(modelsOf(pipeline, scope))>;
           pipeline.findContacts(
-              detail::list_of_shapes<detail::shapes_below<S>()>(), narrow, intersection, manager, dt);
+              detail::list_of_shapes<detail::shapes_below<Models>()>(), narrow, intersection, manager, dt);
         });
       });
       [[maybe_unused]] const auto span = root.span(Phase::response);

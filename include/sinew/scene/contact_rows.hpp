@@ -43,8 +43,11 @@ struct ContactRows {
     if (!std::exchange(m.owesViolations, false)) return;
     m.mayStand = false;
     forEachManager([&](auto& manager, auto const& scope) {
-      for_each_collision_model(scope, [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
-        if (model.surface.elsewhere) lookAt<D>(model.surface, s);
+      with_collision_scope(scope, root, [&](auto const& models) {
+        for_each_collision_model(models,
+                                 [&]<class D>(auto& model, auto& s, auto const&, std::type_identity<D>) {
+                                   if (model.surface.elsewhere) lookAt<D>(model.surface, s);
+                                 });
       });
       manager.forEachConstrained([&](auto const& response, Contact& c) {
         if (c.place < 0 || c.row < 0) return;
@@ -113,16 +116,18 @@ struct ContactRows {
   template <class Manager, class S>
   void addOf(Manager& manager, S const& scope, ConstrainedMotion& m) const {
     manager.assembly.entries.clear();
-    for_each_collision_model(
-        scope, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
-          if (model.surface.elsewhere)
-            keepStill(model.surface);
-          else
-            lookAt<D>(model.surface, s);
-          if (model.simulated && model.surface.solver >= 0)
-            at.template withDofs<D>(
-                [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
-        });
+    with_collision_scope(scope, root, [&](auto const& models) {
+      for_each_collision_model(
+          models, [&]<class D>(auto& model, auto& s, auto const& at, std::type_identity<D>) {
+            if (model.surface.elsewhere)
+              keepStill(model.surface);
+            else
+              lookAt<D>(model.surface, s);
+            if (model.simulated && model.surface.solver >= 0)
+              at.template withDofs<D>(
+                  [&](auto const& dofs) { manager.assembly.template addVertices<D>(model.surface, dofs); });
+          });
+    });
     manager.assembly.sort();
     manager.forEachConstrained([&](auto const& response, Contact& c) {
       const int row = m.rows.count();

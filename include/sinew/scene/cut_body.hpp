@@ -81,10 +81,14 @@ class CutBody : public BodyOfPoints<RootScope> {
                using T = std::decay_t<decltype(t)>;
                constexpr bool editable = requires { t.edit(); };
                const TopologyView view = t.view();
-               if (!view.hexahedra.empty() || !view.quads.empty())
-                 throw Error(text(scope.path(), ": ", component_name<T>()),
-                             "hexahedra and quads are not cut; give the body tetrahedra "
-                             "(Hexa2TetraTopologicalMapping), or triangles");
+               for_each_kind(view, [&](int kind, auto const& list) {
+                 if (!list.empty() && list[0].size() > std::size_t(dimension_of_kind(kind)) + 1)
+                   throw Error(text(scope.path(), ": ", component_name<T>()),
+                               text("a ",
+                                    element_kind_name(kind),
+                                    " is not cut; give the body tetrahedra "
+                                    "(Hexa2TetraTopologicalMapping), or triangles"));
+               });
                if (static_cast<void const*>(&t) != topology_) return;
                if (!editable)
                  throw Error(

@@ -14,6 +14,7 @@
 #include <sinew/scene/topological_changes.hpp>
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -64,7 +65,7 @@ class Initialisation {
     scope.withChild(c, [&](auto& child) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::VisualModel>) {
         child.init(scope.path());
-        initMapping(c, scope, child.position, child.position);
+        initMapping(c, scope, child.position, child.position, child.mesh.triangles);
       } else {
         if constexpr (MakesFaces<C>)
           throw Error(
@@ -74,13 +75,21 @@ class Initialisation {
         child.place(scope.path(), scope.topology().positions);
         child.takeGiven();
         mapsRest = child.restPosition.empty();
-        initMapping(c, scope, mapsRest ? child.position : child.restPosition, child.position);
+        initMapping(c,
+                    scope,
+                    mapsRest ? child.position : child.restPosition,
+                    child.position,
+                    scope.topology().triangles);
         if (mapsRest) child.restPosition.assign(child.position.size(), C::Out::zero());
       }
     });
+    if (mapsRest)
+      scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>)
+          mapping.apply(child.restPosition, parent.restPosition);
+      });
     scope.withMapped(c, [&](auto& mapping, auto& child, auto& parent) {
       if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) {
-        if (mapsRest) mapping.apply(child.restPosition, parent.restPosition);
         mapping.apply(child.position, parent.position);
       } else {
         follow_mapping(mapping, child, parent);
@@ -91,10 +100,20 @@ class Initialisation {
     });
   }
   template <class C, class S, class VecCoord>
-  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions) {
+  static void initMapping(C& c, S const& scope, VecCoord const& rest, VecCoord& positions,
+                          std::span<Triangle const> faces) {
     using In = typename C::In;
-    const InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
-    if constexpr (HasParents<C>) {
+    InitContext<typename C::Out> own{scope.path(), rest, scope.topology()};
+    own.faces = faces;
+    if constexpr (HasTwoKindsOfParents<C>) {
+      std::optional<InitContext<In>> first;
+      scope.forEachParent(c, [&](auto k, auto const& parent) {
+        if constexpr (k == 0)
+          first.emplace(parent.template context<In>());
+        else
+          c.init(*first, parent.template context<typename C::In2>(), own, positions);
+      });
+    } else if constexpr (HasParents<C>) {
       std::vector<InitContext<In>> parents;
       scope.forEachParent(
           c, [&](std::size_t, auto const& parent) { parents.push_back(parent.template context<In>()); });

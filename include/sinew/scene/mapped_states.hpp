@@ -19,10 +19,8 @@ struct MappedStates {
 
   void propagate(CoordId x, DerivId v) const {
     [[maybe_unused]] const auto span = root.span(Phase::mapping);
-    forEach([&](auto& mapping, auto& child, auto& parent) {
-      mapping.apply(child[x], parent[x]);
-      mapping.applyJ(child[v], parent[v]);
-    });
+    forEach([&](auto& mapping, auto& child, auto& parent) { mapping.apply(child[x], parent[x]); },
+            [&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
   }
   void propagate(DerivId v) const {
     [[maybe_unused]] const auto span = root.span(Phase::mapping);
@@ -40,18 +38,25 @@ struct MappedStates {
   }
   /// The same with the product r of a matrix of k K and dx, to which the geometric stiffness belongs.
   void accumulate(DerivId r, DerivId dx, double k) const {
-    forEachBack([&](auto& mapping, auto& child, auto& parent) {
-      mapping.applyJT(parent[r], child[r]);
-      if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
-        if (k != 0) mapping.addKx(parent[r], parent[dx], k);
-    });
+    forEachBack(
+        [&](auto& mapping, auto& child, auto& parent) {
+          mapping.applyJT(parent[r], child[r]);
+          if constexpr (GathersParents<std::decay_t<decltype(mapping)>>)
+            if (k != 0) mapping.gather(parent[dx]);
+        },
+        [&](auto& mapping, auto&, auto& parent) {
+          if constexpr (HasGeometricStiffness<std::decay_t<decltype(mapping)>>)
+            if (k != 0) mapping.addKx(parent[r], parent[dx], k);
+        });
   }
   /// matrix += the geometric stiffness, or its pattern
   template <AssemblyPhase Phase, class Matrix>
   void assemble(Matrix& matrix, MechanicalParams const& p) const {
     traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
                using M = std::decay_t<decltype(mapping)>;
-               if constexpr (HasGeometricStiffness<M>)
+               if constexpr (HasParents<M>)
+                 assembleOfParents<Phase>(matrix, p, mapping, scope);
+               else if constexpr (HasGeometricStiffness<M>)
                  withMechanicalChild(mapping, scope, [&](auto& m, auto&, auto&) {
                    scope.parentScope().template withDofs<typename M::In>([&](auto const& dofs) {
                      with_sink<Phase>(matrix, dofs, dofs, [&](auto const& sink) { m.addToMatrix(p, sink); });
@@ -61,26 +66,49 @@ struct MappedStates {
   }
 
  private:
-  // f(mapping, child state, parent state), parents first, visual models left out
-  template <class F>
-  void forEach(F&& f) const {
+  // f(mapping, child state, parent state), parents first, visual models left out; of several f each goes
+  // through all parts of a mapping before the next one does
+  template <class... F>
+  void forEach(F const&... f) const {
     traverse(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
-               withMechanicalChild(mapping, scope, f);
+               withMechanicalChild(mapping, scope, f...);
              }));
   }
   // the same on the way back
-  template <class F>
-  void forEachBack(F&& f) const {
+  template <class... F>
+  void forEachBack(F const&... f) const {
     [[maybe_unused]] const auto span = root.span(Phase::mappingBack);
     traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
-                    withMechanicalChild(mapping, scope, f);
+                    withMechanicalChild(mapping, scope, f...);
                   }));
   }
-  template <class M, class S, class F>
-  static void withMechanicalChild(M& mapping, S const& scope, F&& f) {
-    scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
-      if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) f(m, child, parent);
-    });
+  template <class M, class S, class... F>
+  static void withMechanicalChild(M& mapping, S const& scope, F const&... f) {
+    auto one = [&](auto const&... g) {
+      scope.withMapped(mapping, [&](auto& m, auto& child, auto& parent) {
+        if constexpr (HasRole<std::decay_t<decltype(child)>, role::State>) (g(m, child, parent), ...);
+      });
+    };
+    if constexpr (HasParents<M>)
+      (one(f), ...);
+    else
+      one(f...);
+  }
+  // the blocks of the geometric stiffness of all pairs of parents
+  template <AssemblyPhase Phase, class Matrix, class M, class S>
+  static void assembleOfParents([[maybe_unused]] Matrix& matrix, [[maybe_unused]] MechanicalParams const& p,
+                                [[maybe_unused]] M& mapping, [[maybe_unused]] S const& scope) {
+    if constexpr (GathersParents<PartOf<M>>)
+      scope.forEachParent(mapping, [&](auto a, auto const& rows) {
+        scope.forEachParent(mapping, [&](auto b, auto const& columns) {
+          rows.template withDofs<InOfParent<M, decltype(a)>>([&](auto const& first) {
+            columns.template withDofs<InOfParent<M, decltype(b)>>([&](auto const& second) {
+              with_sink<Phase>(
+                  matrix, first, second, [&](auto const& sink) { mapping.addToMatrix(p, a, b, sink); });
+            });
+          });
+        });
+      });
   }
   // the force f on a mapped state with that of multipliers; its dx holds the sum
   template <class Child>

@@ -4,6 +4,7 @@
 #include <sinew/core/assembly.hpp>
 #include <sinew/core/element_force.hpp>
 #include <sinew/core/vec_id.hpp>
+#include <sinew/scene/mapped_states.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/state_vectors.hpp>
 #include <sinew/scene/states_of.hpp>
@@ -26,7 +27,9 @@ struct MechanicalForces {
     if constexpr (Root::distributed)
       traverse(root, on<role::ForceField>([&](auto& c, auto const& scope) {
                  if constexpr (takes_elements<std::decay_t<decltype(c)>>)
-                   with_states_of(c, scope, [&](auto& s) { c.driver.setGhosts(s.owned()); });
+                   with_states_of(c, scope, [&](auto& s) {
+                     c.driver.setGhosts(scope.stateScope().mapped() ? 0 : s.owned());
+                   });
                }));
   }
 
@@ -132,8 +135,8 @@ struct MechanicalForces {
       return static_cast<MechanicalParams const&>(p);
     }
   }
-  // f(component, scope, elements): in a distributed scene ghost points of these vectors come meanwhile, and
-  // elements that need none of them go first
+  // f(component, scope, elements): in a distributed scene ghost points of these vectors come meanwhile,
+  // elements that need none of them go first, and mapped states follow when they have come
   template <class F, class... Ids>
   void forEachWithGhosts(F&& f, [[maybe_unused]] Ids... ids) const {
     if constexpr (Root::distributed) {
@@ -143,6 +146,7 @@ struct MechanicalForces {
         if constexpr (takes_elements<std::decay_t<decltype(c)>>) f(c, scope, Elements::inner);
       });
       root.distribution().end(vectors, ids...);
+      if (root.distribution().hasMapped()) MappedStates<Root>{root}.propagate(ids...);
       forEach([&](auto& c, auto const& scope) {
         f(c, scope, takes_elements<std::decay_t<decltype(c)>> ? Elements::outer : Elements::all);
       });

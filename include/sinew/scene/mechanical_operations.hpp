@@ -124,11 +124,15 @@ struct MechanicalOperations : StateVectors<Root> {
 
 template <class Root>
 void MechanicalOperations<Root>::propagate(CoordId x, DerivId v) {
+  if constexpr (Root::distributed)
+    if (root.distribution().hasMapped()) this->bringGhosts(x, v);
   mapped().propagate(x, v);
 }
 
 template <class Root>
 void MechanicalOperations<Root>::propagate(DerivId v) {
+  if constexpr (Root::distributed)
+    if (root.distribution().hasMapped()) this->bringGhosts(v);
   mapped().propagate(v);
 }
 
@@ -168,7 +172,7 @@ template <class Root>
 void MechanicalOperations<Root>::addMBKdx(DerivId r, DerivId dx, MatrixFactors factors) {
   [[maybe_unused]] const auto span = root.span(Phase::product);
   const MechanicalParams p = paramsOf(factors);
-  propagate(dx);
+  if constexpr (!Root::distributed) propagate(dx);  // there with the ghost points that come
   this->forEachMapped([&](auto& s) {
     VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>::clear(OneThread{}, s[r]);
   });

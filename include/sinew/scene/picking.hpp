@@ -7,6 +7,7 @@
 #include <sinew/scene/collision.hpp>
 #include <sinew/scene/scope.hpp>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <utility>
@@ -96,13 +97,16 @@ struct Picking {
                auto const& state = scope.template state<D>();
                update_vertices<D>(s, state.position, state.velocity);
                a.contact.b = pick.place;
-               a.contact.b.surface = numberBelowManager(s);
                a.target = pick.point;
                if (!s.rigid) a.offset = pick.point - position_of(pick.place, s);
-               scope.withContacts([&](auto& manager) {
-                 manager.attach(a);
-                 manager.lastAttachment = a.id;
-               });
+               const std::pair<int, int> place = managerOf(s);
+               a.contact.b.surface = place.second;
+               int at = 0;
+               traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
+                          if (at++ != place.first) return;
+                          manager.attach(a);
+                          manager.lastAttachment = a.id;
+                        }));
              }));
     if (!known) wrong("this place is no longer there; pick again");
     return a.id;
@@ -167,6 +171,8 @@ struct Picking {
         return ray_triangle(ray, s.template corner<3>(s.position, e), s.elements[std::size_t(e)]);
       case Shape::sphere:
         return ray_sphere(ray, s.template corner<1>(s.position, e)[0], s.radiusOf(e));
+      case Shape::capsule:
+        return ray_capsule(ray, s.template corner<2>(s.position, e), s.radiusOf(e));
     }
     return {};
   }
@@ -188,15 +194,19 @@ struct Picking {
     if (s.shape == Shape::line || s.shape == Shape::point) pick.point = place;
     if (s.rigid) side.lever = s.orientation[std::size_t(side.vertices[0])].conjugate() * (pick.point - place);
   }
-  // surfaces are numbered from the pipeline on that they are below
-  int numberBelowManager(CollisionSurface const& wanted) const {
-    int found = -1;
+  // the number of the manager that has a model, of several the innermost one, and that of the model in it
+  std::pair<int, int> managerOf(CollisionSurface const& wanted) const {
+    std::pair<int, int> found{-1, -1};
+    int manager = 0;
     traverse(root, on<role::ContactManager>([&](auto&, auto const& scope) {
                int number = 0;
-               traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) {
-                          if (&model.surface == &wanted) found = number;
-                          ++number;
-                        }));
+               with_collision_scope(scope, root, [&](auto const& models) {
+                 traverse(models, on<role::CollisionModel>([&](auto& model, auto const&) {
+                            if (&model.surface == &wanted) found = {manager, number};
+                            ++number;
+                          }));
+               });
+               ++manager;
              }));
     return found;
   }

@@ -97,7 +97,7 @@ namespace sinew {
 
 SINEW_ONCE RemovedBorder::RemovedBorder(TopologyView const& before,
                                         std::array<std::vector<bool>, element_kinds> const& stays) {
-  const Border was = border_of(before.tetrahedra, before.hexahedra);
+  const Border was = border_of(before);
   // of what goes: its faces that were border go too, and those of what it leaves are laid bare
   auto gone = [](auto const& list, std::vector<bool> const& stay) {
     std::vector<std::decay_t<decltype(list[0])>> all;
@@ -105,9 +105,10 @@ SINEW_ONCE RemovedBorder::RemovedBorder(TopologyView const& before,
       if (!stay[e]) all.push_back(list[e]);
     return all;
   };
-  const auto tetrahedra = gone(before.tetrahedra, stays[3]);
-  const auto hexahedra = gone(before.hexahedra, stays[4]);
-  const Border ofGone = border_of(tetrahedra, hexahedra);
+  const Border ofGone = border_of(gone(before.tetrahedra, stays[3]),
+                                  gone(before.hexahedra, stays[4]),
+                                  gone(before.pyramids, stays[5]),
+                                  gone(before.prisms, stays[6]));
   triangles_.set(was.triangles, ofGone.triangles);
   quads_.set(was.quads, ofGone.quads);
 }

@@ -26,7 +26,7 @@ struct NoScope {
   template <class F>
   static void withLinearSolverIfAny(F&&) {}
   template <class F>
-  static void withContacts(F&&) {}
+  static void withNearestContacts(F&&) {}
   static constexpr NotTimed span(Phase) { return {}; }
   template <class S, class C>
   static constexpr NotTimed visit(S const&, C const&) {
@@ -135,6 +135,12 @@ struct Scope {
     else
       return false;
   }
+  static constexpr bool overEntries() {
+    if constexpr (isMapped)
+      return over_entries<std::decay_t<decltype(std::declval<N&>().template first<role::Mapping>())>>;
+    else
+      return false;
+  }
   std::string path() const {
     if constexpr (requires { N::name; })
       return text(above.path(), '/', N::name.view());
@@ -199,7 +205,9 @@ struct Scope {
   }
   /// The state over whose points the topology of this node is.
   void const* pointsAddress() const {
-    if constexpr (overParent())
+    if constexpr (overEntries())
+      return nullptr;
+    else if constexpr (overParent())
       return parentScope().stateAddress();
     else
       return stateAddress();
@@ -238,7 +246,9 @@ struct Scope {
   /// f(context) for the points over which the topology of this node is, if there are some.
   template <class F>
   void withContext(F&& f) const {
-    if constexpr (overParent()) {
+    if constexpr (overEntries()) {
+      return;
+    } else if constexpr (overParent()) {
       f(parentContext<typename std::decay_t<decltype(node.template first<role::Mapping>())>::In>());
     } else if constexpr (hasState) {
       f(context<typename std::decay_t<decltype(stateScope().node.state())>::DataTypes>());
@@ -324,10 +334,12 @@ struct Scope {
   /// f(number, scope that owns the state) for each parent of a mapping with several.
   template <class M, class F>
   void forEachParent(M&, F&& f) const {
-    [&]<FixedString... Paths>(Parents<Paths...>) {
-      std::size_t k = 0;
-      (reach<Paths>([&](auto const& parent) { f(k++, parent.stateScope()); }), ...);
-    }(typename M::Parents{});
+    withParents(f, typename M::Parents{}, [] {
+      if constexpr (HasTwoKindsOfParents<M>)
+        return ParentNumber<0>{};
+      else
+        return std::size_t(0);
+    }());
   }
   /// f(mapping, child, parent state) for the mapping of this node, or for each part of one with several
   /// parents; the child is a state or a visual model.
@@ -335,8 +347,9 @@ struct Scope {
   void withMapped(M& mapping, F&& f) const {
     withChild(mapping, [&](auto& child) {
       if constexpr (HasParents<M>)
-        forEachParent(mapping, [&](std::size_t k, auto const& parent) {
-          f(mapping.parts[k], child, parent.node.state());
+        forEachParent(mapping, [&](auto k, auto const& parent) {
+          auto&& part = mapping.part(k);
+          f(part, child, parent.node.state());
         });
       else
         f(mapping, child, above.stateScope().node.state());
@@ -417,13 +430,31 @@ struct Scope {
     else
       above.withLinearSolverIfAny(f);
   }
-  /// f(contact manager) with the nearest one, from this node upwards, if there is one.
+  /// f(contact manager) with those that may have contacts of models here: the nearest one, from this node
+  /// upwards, if there is one, and those of pipelines that list their models.
   template <class F>
   void withContacts(F&& f) const {
+    withNearestContacts(f);
+    withListedContacts(f);
+  }
+  template <class F>
+  void withNearestContacts(F&& f) const {
     if constexpr (always<role::ContactManager>)
       f(node.template first<role::ContactManager>());
     else
-      above.withContacts(f);
+      above.withNearestContacts(f);
+  }
+  template <class F>
+  void withListedContacts(F&& f) const {
+    if constexpr (requires { above.withListedContacts(f); })
+      above.withListedContacts(f);
+    else
+      forEachChild<role::ContactManager>([&](auto const& child) {
+        with_first<role::CollisionPipeline>(child, [&](auto const& pipeline) {
+          if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>)
+            with_first<role::ContactManager>(child, f);
+        });
+      });
   }
 
  private:
@@ -444,6 +475,18 @@ struct Scope {
   void visitChild(F& f, Child& child) const {
     if constexpr (sizeof...(Roles) == 0 || holds<Child, Roles...>()) f(below(child));
   }
+  template <class F, class K, FixedString... Paths>
+  void withParents(F& f, Parents<Paths...>, K k) const {
+    if constexpr (std::is_same_v<K, std::size_t>)
+      (reach<Paths>([&](auto const& parent) { f(k++, parent.stateScope()); }), ...);
+    else
+      withNumberedParents<K::value>(f, Parents<Paths...>{});
+  }
+  template <std::size_t K, class F, FixedString Path, FixedString... Paths>
+  void withNumberedParents(F& f, Parents<Path, Paths...>) const {
+    reach<Path>([&](auto const& parent) { f(ParentNumber<K>{}, parent.stateScope()); });
+    if constexpr (sizeof...(Paths) > 0) withNumberedParents<K + 1>(f, Parents<Paths...>{});
+  }
   template <class M, class F, class... Found>
   void withParentDofs(M const& mapping, F&& f, Parents<>, Found const&... found) const {
     f(MultiMappedDofs<M, Found...>{mapping, {found...}});
@@ -451,7 +494,7 @@ struct Scope {
   template <class M, class F, FixedString Path, FixedString... Paths, class... Found>
   void withParentDofs(M const& mapping, F&& f, Parents<Path, Paths...>, Found const&... found) const {
     reach<Path>([&](auto const& parent) {
-      parent.template withDofs<typename M::In>(
+      parent.template withDofs<InOfParent<M, ParentNumber<sizeof...(found)>>>(
           [&](auto const& dofs) { withParentDofs(mapping, f, Parents<Paths...>{}, found..., dofs); });
     });
   }

@@ -35,8 +35,8 @@ constexpr bool is_found_by_states() {
 }
 template <class S>
 constexpr bool states_find_contacts();
-template <class S, class Name, class... Cs, class... Ns>
-constexpr bool states_find_contacts(std::type_identity<Node<Name, hana::tuple<Cs...>, hana::tuple<Ns...>>>) {
+template <class S, class... Cs, class... Ns>
+constexpr bool states_find_contacts(NodeParts<hana::tuple<Cs...>, hana::tuple<Ns...>> const*) {
   return (false || ... || is_found_by_states<Cs>()) ||
          (false || ... || states_find_contacts<typename ScopeOf<Ns, S>::type>());
 }
@@ -49,7 +49,7 @@ constexpr bool states_find_contacts() {
         [&]<class C>() constexpr { some = some || is_found_by_states<C>(); });
     return some;
   } else {
-    return states_find_contacts<S>(std::type_identity<typename S::NodeType>{});
+    return states_find_contacts<S>(static_cast<typename S::NodeType const*>(nullptr));
   }
 }
 
@@ -165,7 +165,7 @@ struct StateContacts {
   // (those of models over such DataTypes are marked as `elsewhere` before)
   static bool moves(CollisionSurface const& s) { return s.elsewhere; }
   static bool stands(CollisionSurface const& s) {
-    return s.solver < 0 && !s.rigid && s.shape != Shape::hull && !s.elsewhere;
+    return s.solver < 0 && !s.rigid && (is_simplex(s.shape) || s.shape == Shape::sphere) && !s.elsewhere;
   }
 
  private:

@@ -54,6 +54,13 @@ struct StateVectors {
   /// The threads by which the solver of this scope works.
   auto workers() const { return root.workers(); }
 
+  /// Of a distributed scene: these vectors are at ghost points what they are at those of their owners.
+  template <class... Ids>
+  void bringGhosts(Ids... ids) const {
+    root.distribution().begin(*this, ids...);
+    root.distribution().end(*this, ids...);
+  }
+
   // vector mathematics
 
   void clear(DerivId r) const;

@@ -42,6 +42,7 @@ struct TopologicalChanges {
                      "the elements of its topology are made from a few numbers, and none of them can be "
                      "removed; give the node a MeshTopology with these elements");
                c.prepare(where, scope.topology());
+               if constexpr (TearsElements<std::decay_t<decltype(c)>>) this->prepareTearing(where, scope);
              }));
   }
 
@@ -59,8 +60,14 @@ struct TopologicalChanges {
         std::optional<CutOrder> cut;
         bool keepsLast = false;
         at(number, [&](auto& c, auto const& scope) {
-          here = this->place(scope);
-          due = find(c, scope, here.points, time, order);
+          if constexpr (TearsElements<std::decay_t<decltype(c)>>) {
+            cut = this->tear(c, scope);
+            due = cut.has_value();
+            if (due) here = this->place(scope);
+          } else {
+            here = this->place(scope);
+            due = find(c, scope, here.points, time, order);
+          }
           if (due && !order.box.empty())
             addThoseIn(order.box, scope.topology(), positionsOf(scope.pointsAddress()), order.gone);
           keepsLast = due && order.removes() && keepOne(scope.topology(), order.gone);
@@ -76,8 +83,10 @@ struct TopologicalChanges {
         });
         if (!due) break;
         const bool some = order.removes() || !order.added.empty() || cut;
+        bool changes = true;
         if (cut) {
           const Cut done = edit(here.path, *cut);
+          changes = done.change.changes();
           at(number, [&](auto& c, auto const&) {
             if constexpr (requires { c.front; }) c.front = done.front;
           });
@@ -87,13 +96,18 @@ struct TopologicalChanges {
           edit(here.path, order.added);
         }
         any = any || some;
-        at(number, [](auto& c, auto const&) {
-          if constexpr (FindsChanges<std::decay_t<decltype(c)>>)
+        bool again = !keepsLast;  // else it would be found again
+        at(number, [&](auto& c, auto const&) {
+          if constexpr (TearsElements<std::decay_t<decltype(c)>>) {
+            c.changeMade(changes);
+            again = false;
+          } else if constexpr (FindsChanges<std::decay_t<decltype(c)>>) {
             c.changeMade();
-          else
+          } else {
             c.elementsRemoved();
+          }
         });
-        if (keepsLast) break;  // it would be found again
+        if (!again) break;
       }
     return any;
   }
@@ -159,12 +173,7 @@ struct TopologicalChanges {
       for (std::size_t e = 0; e < list.size(); ++e)
         if (std::all_of(list[e].begin(), list[e].end(), isIn)) numbers.push_back(Index(e));
     };
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
-      add(t.tetrahedra, gone.tetrahedra), add(t.hexahedra, gone.hexahedra);
-    else if (!t.triangles.empty() || !t.quads.empty())
-      add(t.triangles, gone.triangles), add(t.quads, gone.quads);
-    else
-      add(t.edges, gone.edges);
+    for_each_highest(t, [&](int kind, auto const& list) { add(list, gone.of(kind)); });
   }
   template <class C, class S>
   std::optional<CutOrder> incision(C& c, S const& scope, std::vector<Eigen::Vector3d> const& path) const {
@@ -183,27 +192,66 @@ struct TopologicalChanges {
     }
     return cut;
   }
+  template <class S>
+  void prepareTearing(std::string const& where, S const& scope) const {
+    bool any = false;
+    traverse(root, on<role::ForceField>([&](auto const& force, auto const& at) {
+               any = any || (GivesStress<std::decay_t<decltype(force)>> && actsThere(at, scope));
+             }));
+    if (!any)
+      throw Error(where,
+                  "no force field of its node says what stresses the elements are under, and so none would "
+                  "tear; give the node a TriangleFEMForceField or a TetrahedronFEMForceField");
+    CutBody<RootScope>(root, scope.topologyAddress(), scope.pointsAddress());
+  }
+  template <class F, class S>
+  static bool actsThere(F const& at, S const& scope) {
+    return at.topologyAddress() == scope.topologyAddress() && at.stateAddress() == scope.pointsAddress();
+  }
+  template <class C, class S>
+  std::optional<CutOrder> tear(C& c, S const& scope) const {
+    using D = typename C::DataTypes;
+    if (!c.looks(scope.topology())) return {};
+    traverse(root, on<role::ForceField>([&](auto const& force, auto const& at) {
+               using F = std::decay_t<decltype(force)>;
+               if constexpr (GivesStress<F>)
+                 if (actsThere(at, scope)) {
+                   auto const& state = at.template state<typename F::DataTypes>();
+                   force.addStress({{}, state.restPosition, at.topology()}, state.position, c.stress);
+                 }
+             }));
+    if (!c.overloaded()) return {};
+    auto const& state = scope.template state<D>();
+    std::vector<bool> held(state.size(), false);
+    traverse(root, on<role::ProjectiveConstraint>([&](auto const& constraint, auto const& at) {
+               using P = std::decay_t<decltype(constraint)>;
+               if constexpr (!JoinsTwo<P>)
+                 if constexpr (std::is_same_v<typename P::DataTypes, D>)
+                   if (at.stateAddress() == scope.pointsAddress()) {
+                     typename D::VecDeriv moves(state.size(), D::Deriv::Ones());
+                     constraint.projectResponse(moves);
+                     for (std::size_t i = 0; i < held.size(); ++i)
+                       held[i] = held[i] || moves[i].squaredNorm() == 0;
+                   }
+             }));
+    const auto stroke = c.tear(scope.topology(), centers_of(state, state.position), held);
+    if (!stroke) return {};
+    return CutOrder{*stroke, c.rules(), c.front, {}};
+  }
   // Leaves the first element out where all of the highest dimension would go.
   static bool keepOne(TopologyView const& topology, ElementNumbers& elements) {
-    auto all = [](auto const& list, std::vector<Index>& numbers) {
+    bool all = true;
+    std::vector<Index>* some = nullptr;
+    for_each_highest(topology, [&](int kind, auto const& list) {
+      std::vector<Index>& numbers = elements.of(kind);
       std::sort(numbers.begin(), numbers.end());
       numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-      return numbers.size() == list.size();
-    };
-    auto keep = [&](auto const& a, std::vector<Index>& ofA, auto const& b, std::vector<Index>& ofB) {
-      const bool allOfA = all(a, ofA), allOfB = all(b, ofB);
-      if (!allOfA || !allOfB || (ofA.empty() && ofB.empty())) return false;
-      auto& from = ofA.empty() ? ofB : ofA;
-      from.erase(from.begin());
-      return true;
-    };
-    auto const& t = topology;
-    if (!t.tetrahedra.empty() || !t.hexahedra.empty())
-      return keep(t.tetrahedra, elements.tetrahedra, t.hexahedra, elements.hexahedra);
-    if (!t.triangles.empty() || !t.quads.empty())
-      return keep(t.triangles, elements.triangles, t.quads, elements.quads);
-    std::vector<Index> none;
-    return keep(t.edges, elements.edges, std::vector<Edge>{}, none);
+      all = all && numbers.size() == list.size();
+      if (!some && !numbers.empty()) some = &numbers;
+    });
+    if (!all || !some) return false;
+    some->erase(some->begin());
+    return true;
   }
   template <class F>
   void at(int number, F&& f) const {

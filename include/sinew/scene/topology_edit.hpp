@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/follow.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/cut_body.hpp>
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
@@ -9,6 +10,7 @@
 #include <sinew/topology/removal_plan.hpp>
 
 #include <functional>
+#include <list>
 #include <map>
 #include <set>
 #include <string>
@@ -90,6 +92,7 @@ class TopologyEdit {
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
   std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
+  std::list<CutPlan> carried_{};                  // of the surfaces that the body carries
   std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
   std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come
   // what topologies and visual models have that are cut, or to which elements come
@@ -158,7 +161,7 @@ class TopologyEdit {
                     "the elements of this topology are made from a few numbers, and none of them "
                     "can be removed; give "
                     "the node a MeshTopology with these elements");
-      detail::for_each_kind(t.view, [&](int kind, auto const& list) {
+      for_each_kind(t.view, [&](int kind, auto const& list) {
         for (const Index e : *lists[std::size_t(kind)])
           if (e < 0 || std::size_t(e) >= list.size())
             throw Error(t.path,
@@ -203,6 +206,8 @@ class TopologyEdit {
   void planCut(CutOrder const& order) {
     CutBody<RootScope> body(root_, topology_, state_);
     cut_ = body.plan(order);
+    samePoints_ = body.states;
+    planCarried(order);
     if (cut_.elements == 0) {
       ofTopology_[topology_].points = cut_.points;
       return;
@@ -220,7 +225,6 @@ class TopologyEdit {
       }
       return !blade.crossing(x[std::size_t(i)], x[std::size_t(j)], Eigen::Vector3d::Zero());
     };
-    samePoints_ = body.states;
     touchedStates_ = samePoints_;
     for (void const* state : samePoints_) ofState_[state] = cut_.points;
     for (std::size_t t = 0; t < body.bodies.size(); ++t) {
@@ -231,6 +235,88 @@ class TopologyEdit {
                     "this topology is made from a few numbers, and cannot be cut; take a MeshTopology");
     }
     touchMapped();
+  }
+  // surfaces that the body carries are cut by the same blade, where it is
+  void planCarried(CutOrder const& order) {
+    std::size_t number = 0;
+    traverse(
+        root_, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+          using M = std::decay_t<decltype(mapping)>;
+          if constexpr (carries_points<M>)
+            scope.withMapped(mapping, [&](auto&, auto& child, auto& parent) {
+              if (!samePoints_.contains(&parent)) return;
+              CutOrder ofChild{order.stroke, order.rules, {}, {}};
+              ofChild.rules.capacity = CutRules{}.capacity;
+              if (number < order.front.carried.size() &&
+                  order.front.carried[number].size == child.position.size())
+                ofChild.front = order.front.carried[number];
+              ++number;
+              typename M::In::VecCoord before;
+              for (auto const& x : order.before) before.push_back(x.template cast<typename M::In::Real>());
+              if (!before.empty()) ofChild.before = this->carried(mapping, child, before);
+              this->planCarried(
+                  child, this->carried(mapping, child, parent.position), mapping.useRestPosition, ofChild);
+              cut_.front.carried.push_back(std::move(ofChild.front));
+            });
+        }));
+  }
+  template <class M, class Child, class VecCoord>
+  static std::vector<Eigen::Vector3d> carried(M const& mapping, Child const& child, VecCoord const& parent) {
+    typename M::Out::VecCoord x(child.position.size());
+    mapping.apply(x, parent);
+    std::vector<Eigen::Vector3d> all;
+    for (auto const& p : x) all.push_back(p.template cast<double>());
+    return all;
+  }
+  template <class Child>
+  void planCarried(Child const& child, std::vector<Eigen::Vector3d> const& x, bool atRest, CutOrder& order) {
+    BodyOfPoints<RootScope> family(root_, &child);
+    std::vector<TopologyView> views;
+    std::vector<bool> grows;
+    std::size_t first = family.bodies.size();
+    auto dimension = [&](std::size_t t) {
+      return !views[t].tetrahedra.empty() ? 3 : !views[t].triangles.empty() ? 2 : 0;
+    };
+    for (std::size_t t = 0; t < family.bodies.size(); ++t) {
+      auto const& body = family.bodies[t];
+      views.push_back(body.view);
+      grows.push_back(!family.mechanical.contains(body.address));
+      if (!body.view.quads.empty() || !body.view.hexahedra.empty()) return;
+      if (dimension(t) > (first < t ? dimension(first) : 0)) first = t;
+    }
+    if (first == family.bodies.size()) return;
+    if (dimension(first) == 3)
+      add_crossings(views[first].tetrahedra, x, order.before, order.stroke, order.front);
+    else
+      add_crossings(views[first].triangles, x, order.before, order.stroke, order.front);
+    order.front.size = x.size();
+    if (!cut_.changes()) return;
+    CutPlan plan = plan_cut(placesOf(child, atRest), views, first, grows, order.front, order.rules);
+    order.front = plan.front;
+    order.front.size = plan.points.size();
+    if (!plan.changes()) return;
+    family.checkValues("the body that carries it is cut");
+    CutPlan const& kept = carried_.emplace_back(std::move(plan));
+    for (void const* state : family.states) ofState_[state] = kept.points;
+    for (std::size_t t = 0; t < family.bodies.size(); ++t) {
+      ofTopology_[family.bodies[t].address] = kept.ofTopology[t];
+      if (!kept.ofTopology[t].changes()) continue;
+      lists_[family.bodies[t].address] = &kept.lists[t];
+      if (!family.bodies[t].editable)
+        throw Error(family.bodies[t].path,
+                    "this topology is made from a few numbers, and cannot be cut with the body that carries "
+                    "it; take a MeshTopology");
+    }
+  }
+  // where its mapping looks for the points of a state or a visual model
+  template <class Child>
+  static std::vector<Eigen::Vector3d> placesOf(Child const& child, bool atRest) {
+    if constexpr (HasRole<Child, role::VisualModel>) {
+      return child.mesh.positions;
+    } else {
+      auto const& given = child.given ? *child.given : child.position;
+      return centers_of(child, atRest && child.givenRest ? *child.givenRest : given);
+    }
   }
   void touchMapped() {
     traverse(root_, on<role::Mapping>([this](auto& mapping, auto const& scope) {
@@ -332,7 +418,7 @@ class TopologyEdit {
         return kinds({4});
       case Of::volumes:
         return kinds({3, 4});
-      case Of::elements:
+      case Of::elements:  // pyramids and prisms never come
         return kinds({0, 1, 2, 3, 4});
       default:
         return false;
@@ -408,8 +494,8 @@ class TopologyEdit {
     ofState_[state] = Renumbering::of(plan.points);
     for (std::size_t t = 0; t < topologies.size(); ++t) {
       Topology const& here = topologies[t];
-      if (samePoints_.contains(state) && here.editable && here.view.tetrahedra.empty() &&
-          here.view.hexahedra.empty() && !mechanical_.contains(here.address)) {
+      if (samePoints_.contains(state) && here.editable && dimension_of(here.view) < 3 &&
+          !mechanical_.contains(here.address)) {
         const BorderLists lists = border_.listed(here.view.triangles, here.view.quads);
         if (lists.any()) borders_[here.address] = lists;
         border_.mark(lists, here.view, plan.elements[t]);
@@ -485,9 +571,11 @@ class TopologyEdit {
           c.followElements(change);
     } else if constexpr (HasRole<C, role::ContactManager>) {
       std::vector<Renumbering const*> surfaces;
-      traverse(scope, on<role::CollisionModel>([&](auto&, auto const& s) {
-                 surfaces.push_back(&ofState(s.stateAddress()));
-               }));
+      with_collision_scope(scope, root_, [&](auto const& models) {
+        traverse(models, on<role::CollisionModel>([&](auto&, auto const& s) {
+                   surfaces.push_back(&ofState(s.stateAddress()));
+                 }));
+      });
       c.follow([&](int s) -> Renumbering const& { return *surfaces[std::size_t(s)]; });
     } else if constexpr (HasRole<C, role::Mapping>) {
       void const* mapped = nullptr;
@@ -525,6 +613,8 @@ class TopologyEdit {
     if (lists.quads) *lists.quads = now.quads;
     if (lists.tetrahedra) *lists.tetrahedra = now.tetrahedra;
     if (lists.hexahedra) *lists.hexahedra = now.hexahedra;
+    if (lists.pyramids) *lists.pyramids = now.pyramids;
+    if (lists.prisms) *lists.prisms = now.prisms;
   }
   static void follow(ElementLists const& lists, TopologyChange const& change) {
     if (lists.positions) change.points.filter(*lists.positions);

@@ -17,11 +17,13 @@ struct AddPlan {
     std::vector<Quad> quads{};
     std::vector<Tetrahedron> tetrahedra{};
     std::vector<Hexahedron> hexahedra{};
+    std::vector<Pyramid> pyramids{};
+    std::vector<Prism> prisms{};
 
     /// f(kind, list) for each kind.
     template <class F>
     void forEach(F&& f) {
-      f(0, edges), f(1, triangles), f(2, quads), f(3, tetrahedra), f(4, hexahedra);
+      for_each_kind(*this, f);
     }
   };
   Renumbering points{};
@@ -158,7 +160,9 @@ struct ElementsThatFollow {
              {t.triangles.begin(), t.triangles.end()},
              {t.quads.begin(), t.quads.end()},
              {t.tetrahedra.begin(), t.tetrahedra.end()},
-             {t.hexahedra.begin(), t.hexahedra.end()}};
+             {t.hexahedra.begin(), t.hexahedra.end()},
+             {t.pyramids.begin(), t.pyramids.end()},
+             {t.prisms.begin(), t.prisms.end()}};
     lists.forEach([&](int kind, auto const& list) { stays[std::size_t(kind)].assign(list.size(), true); });
   }
   void add(AddedElements const& added) {
@@ -251,7 +255,7 @@ std::vector<Element> outermost(std::vector<Element> const& list, std::vector<Ori
 }
 inline std::vector<Edge> border_edges(std::span<Triangle const> triangles) {
   constexpr std::size_t sides[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-  return border_faces(triangles, sides);
+  return FacesOfElements<2>{}.add(triangles, sides).border();
 }
 // two triangles of each quad, one behind the other, round as it is (1) or the other way (-1); 0: they are not
 inline int halves(std::span<Triangle const> triangles, std::span<Quad const> quads) {
@@ -280,15 +284,18 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   same(2, is.quads, from.quads, t.lists.quads, source.lists.quads);
   same(3, is.tetrahedra, from.tetrahedra, t.lists.tetrahedra, source.lists.tetrahedra);
   same(4, is.hexahedra, from.hexahedra, t.lists.hexahedra, source.lists.hexahedra);
+  same(5, is.pyramids, from.pyramids, t.lists.pyramids, source.lists.pyramids);
+  same(6, is.prisms, from.prisms, t.lists.prisms, source.lists.prisms);
   if (any) return true;
 
   // what has no element yet goes by its conversion
   auto made = [&](std::string_view by, auto const& list, int found) {
     return found != 0 ? found : list.empty() && conversion == by ? (reversed ? -1 : 1) : 0;
   };
-  const Border was = border_of(from.tetrahedra, from.hexahedra),
-               now = border_of(outermost(source.lists.tetrahedra, source.come[3]),
-                               outermost(source.lists.hexahedra, source.come[4]));
+  const Border was = border_of(from), now = border_of(outermost(source.lists.tetrahedra, source.come[3]),
+                                                      outermost(source.lists.hexahedra, source.come[4]),
+                                                      source.lists.pyramids,
+                                                      source.lists.prisms);
   if (const int o = made("Tetra2TriangleTopologicalMapping",
                          is.triangles,
                          ElementsThatFollow::listed(is.triangles, was.triangles));

@@ -34,6 +34,10 @@ inline constexpr std::array<EdgeCorners, 6> tetrahedronEdges{
     {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}};
 inline constexpr std::array<EdgeCorners, 12> hexahedronEdges{
     {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {4, 5}, {5, 6}, {6, 7}, {7, 4}, {0, 4}, {1, 5}, {2, 6}, {3, 7}}};
+inline constexpr std::array<EdgeCorners, 8> pyramidEdges{
+    {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 4}, {1, 4}, {2, 4}, {3, 4}}};
+inline constexpr std::array<EdgeCorners, 9> prismEdges{
+    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
 
 /// A face without its orientation, which is kept apart: the outward order is an even permutation of `points`,
 /// or odd.
@@ -44,12 +48,14 @@ struct Face {
 
 }  // namespace detail
 
-/// The different edges of triangles, tetrahedra or hexahedra (12 a cell). In each edge the lower point comes
-/// first; the edges are in lexicographic order. Throws Error on a negative index or an edge from a point to
-/// itself.
+/// The different edges of triangles, tetrahedra, hexahedra (12 a cell), pyramids or prisms. In each edge the
+/// lower point comes first; the edges are in lexicographic order. Throws Error on a negative index or an edge
+/// from a point to itself.
 std::vector<Edge> edges_of(std::vector<Triangle> const& triangles);
 std::vector<Edge> edges_of(std::vector<Tetrahedron> const& tetrahedra);
 std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra);
+std::vector<Edge> edges_of(std::vector<Pyramid> const& pyramids);
+std::vector<Edge> edges_of(std::vector<Prism> const& prisms);
 
 /// The different sides of quads, as edges_of. (Quad and Tetrahedron are one type, hence the other name.)
 std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads);
@@ -139,6 +145,14 @@ SINEW_ONCE std::vector<Edge> edges_of(std::vector<Hexahedron> const& hexahedra) 
   return detail::unique_edges("hexahedron", hexahedra, detail::hexahedronEdges);
 }
 
+SINEW_ONCE std::vector<Edge> edges_of(std::vector<Pyramid> const& pyramids) {
+  return detail::unique_edges("pyramid", pyramids, detail::pyramidEdges);
+}
+
+SINEW_ONCE std::vector<Edge> edges_of(std::vector<Prism> const& prisms) {
+  return detail::unique_edges("prism", prisms, detail::prismEdges);
+}
+
 SINEW_ONCE std::vector<Edge> edges_of_quads(std::vector<Quad> const& quads) {
   return detail::unique_edges("quad", quads, detail::quadSides);
 }
@@ -194,11 +208,10 @@ SINEW_ONCE void remove_unused_points(Mesh& mesh) {
   check_mesh("remove_unused_points", mesh);
   std::vector<Index> number(mesh.positions.size(), -1);
   auto each = [&](auto change) {
-    auto all = [&](auto& elements) {
+    for_each_kind(mesh, [&](int, auto& elements) {
       for (auto& element : elements)
         for (Index& i : element) change(i);
-    };
-    all(mesh.edges), all(mesh.triangles), all(mesh.quads), all(mesh.tetrahedra), all(mesh.hexahedra);
+    });
   };
   each([&](Index& i) { number[std::size_t(i)] = 0; });
   Index count = 0;

@@ -6,6 +6,7 @@
 #include <sinew/core/mesh.hpp>
 
 #include <Eigen/Geometry>
+#include <array>
 #include <optional>
 #include <span>
 #include <string_view>
@@ -35,6 +36,8 @@ class SweptBlade {
  public:
   /// Throws Error unless both polylines have as many points, two at least, and all are finite.
   SweptBlade(std::string_view where, Blade const& blade);
+  /// The triangles themselves: of a surface that no blade sweeps.
+  explicit SweptBlade(std::vector<std::array<Eigen::Vector3d, 3>> const& triangles);
 
   Eigen::AlignedBox3d const& box() const { return box_; }
   /// The sum of the normals of what it sweeps, as long as the areas are large [m^2].
@@ -89,6 +92,13 @@ SINEW_ONCE SweptBlade::SweptBlade(std::string_view where, Blade const& blade) {
   for (std::size_t k = 0; k + 1 < blade.from.size(); ++k) {
     triangles_.push_back({{blade.from[k], blade.from[k + 1], blade.to[k + 1]}, {true, true, false}});
     triangles_.push_back({{blade.from[k], blade.to[k + 1], blade.to[k]}, {true, false, false}});
+  }
+}
+
+SINEW_ONCE SweptBlade::SweptBlade(std::vector<std::array<Eigen::Vector3d, 3>> const& triangles) {
+  for (auto const& [a, b, c] : triangles) {
+    triangles_.push_back({{a, b, c}, {false, false, false}});
+    for (auto const& p : {a, b, c}) box_.extend(p);
   }
 }
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/compiled.hpp>
+#include <sinew/core/context.hpp>
 #include <sinew/topology/hexahedra.hpp>
 #include <sinew/topology/surface_cells.hpp>
 
@@ -68,8 +69,9 @@ Mesh cell_hexahedra(CellParts const& parts, std::array<std::vector<double>, 3> c
 struct SparseCells {
   Mesh mesh{};
   std::vector<double> stiffness{}, mass{};
-  Mesh finer{};                // the finest cells, where the hexahedra are parts of cells
-  std::vector<int> parents{};  // the hexahedron of each
+  Mesh finer{};                     // the finest cells, where the hexahedra are parts of cells
+  std::vector<int> parents{};       // the hexahedron of each
+  std::vector<CellLevel> levels{};  // from the halves of the hexahedra to the finest cells
 };
 /// `levels` times coarser than the finest cells. With `split`, cells have parts. Throws Error where no cell
 /// is kept.
@@ -277,6 +279,17 @@ SINEW_ONCE Mesh cell_hexahedra(CellParts const& parts,
   return mesh;
 }
 
+/// The corner of the cell of twice the length at which each part lies.
+SINEW_ONCE std::vector<int> octants_of(CellParts const& parts) {
+  std::vector<int> octants(std::size_t(parts.first.back()));
+  for (std::size_t c = 0; c < parts.cells.size(); ++c) {
+    const Eigen::Vector3i half = parts.cells[c].unaryExpr([](int i) { return i & 1; });
+    const int corner = 4 * half[2] + (half[1] ? 3 - half[0] : half[0]);
+    std::fill(octants.begin() + parts.first[c], octants.begin() + parts.first[c + 1], corner);
+  }
+  return octants;
+}
+
 SINEW_ONCE std::array<int, 3> finer_grid(std::string const& at, std::array<int, 3> n, int levels) {
   for (int level = 0; level < levels; ++level)
     for (int& points : n) {
@@ -310,6 +323,15 @@ SINEW_ONCE SparseCells sparse_cells(std::string const& at, CellParts finest, Sur
       for (std::size_t level = 1; level + 1 < all.size(); ++level) part = all[level].whole[std::size_t(part)];
       made.parents.push_back(part);
     }
+  }
+  for (std::size_t level = all.size() - 1; level-- > 0;) {
+    made.levels.push_back({.hexahedra = (split ? linked_hexahedra(all[level], coordinates)
+                                               : cell_hexahedra(all[level], coordinates))
+                                            .hexahedra,
+                           .parents = std::move(all[level].whole),
+                           .octants = octants_of(all[level]),
+                           .fill = std::move(all[level].stiffness),
+                           .massFill = std::move(all[level].mass)});
   }
   for (std::size_t c = 0; c < 3; ++c)
     coordinates[c] = grid_coordinates(

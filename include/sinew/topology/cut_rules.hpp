@@ -37,6 +37,10 @@ struct CutFront {
   /// Faces that part when the cut goes on there, since all their points are in its end: in rising order, of a
   /// surface edges with -1 behind.
   std::vector<Triangle> faces{};
+  /// The same of surfaces that the body carries, in the order of their mappings, and how many points each of
+  /// these has then.
+  std::vector<CutFront> carried{};
+  std::size_t size = 0;
 };
 
 }  // namespace sinew

@@ -73,6 +73,7 @@ struct MultilinearFit : ElementBox {
   using Place = Eigen::Matrix<double, Dim, 1>;
   static constexpr bool isDistance = true;
   Eigen::Matrix<double, 3, 1 << Dim> corners;
+  Place most = Place::Ones();  // where corners coincide at 1, places are below
 
   MultilinearFit(std::span<Eigen::Vector3d const> x, Points const& points) : ElementBox(x, points) {
     for (int k = 0; k < 1 << Dim; ++k) corners.col(k) = x[std::size_t(points[std::size_t(k)])];
@@ -82,12 +83,12 @@ struct MultilinearFit : ElementBox {
     for (int iteration = 0; iteration < 16; ++iteration) {
       const Place step = along(MultilinearShape<Dim>(t), p);
       if (!all_finite(step)) break;
-      const Place next = (t + step).cwiseMax(-0.5).cwiseMin(1.5);
+      const Place next = (t + step).cwiseMax(-0.5).cwiseMin((most.array() < 1).select(most, 1.5));
       const bool settled = (next - t).cwiseAbs().maxCoeff() < 1e-14;
       t = next;
       if (settled) break;
     }
-    t = t.cwiseMax(0).cwiseMin(1);
+    t = t.cwiseMax(0).cwiseMin(most);
     const MultilinearShape<Dim> shape(t);
     const Place rest = along(shape, p);
     const auto weights = (shape.weights + shape.derivatives * rest).eval();
@@ -105,6 +106,30 @@ struct MultilinearFit : ElementBox {
       return slope.inverse() * gap;
     else
       return (slope.transpose() * slope).inverse() * (slope.transpose() * gap);
+  }
+};
+
+/// Pyramids and prisms, as hexahedra of which corners coincide.
+template <class Element>
+struct CollapsedFit : MultilinearFit<3> {
+  using Points = Element;
+
+  CollapsedFit(std::span<Eigen::Vector3d const> x, Points const& points)
+      : MultilinearFit<3>(x, as_hexahedron(points)) {
+    this->most[points.size() == 5 ? 2 : 1] = 1 - 1e-4;
+  }
+  ElementFit<int(std::tuple_size_v<Element>)> fit(Eigen::Vector3d const& p) const {
+    constexpr int nodes = int(std::tuple_size_v<Element>);
+    const ElementFit<8> whole = MultilinearFit<3>::fit(p);
+    constexpr Hexahedron nodeOf = [] {
+      Element numbers{};
+      for (int i = 0; i < nodes; ++i) numbers[std::size_t(i)] = i;
+      return as_hexahedron(numbers);
+    }();
+    ElementFit<nodes> result{whole.score, {}};
+    result.weights.setZero();
+    for (int k = 0; k < 8; ++k) result.weights[nodeOf[std::size_t(k)]] += whole.weights[k];
+    return result;
   }
 };
 

@@ -4,7 +4,9 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
 
+#include <Eigen/LU>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -18,6 +20,16 @@ inline constexpr int hexahedronCorners[8][3] = {
 /// Its faces, counter-clockwise seen from outside.
 inline constexpr std::size_t hexahedronFaces[6][4] = {
     {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
+
+/// A pyramid or prism as the hexahedron that it is where corners coincide: the upper four are its apex, or
+/// those at y = 1 are two. Its shape functions are the sums of those of the corners that do.
+constexpr Hexahedron as_hexahedron(Hexahedron const& h) { return h; }
+constexpr Hexahedron as_hexahedron(Pyramid const& p) {
+  return {p[0], p[1], p[2], p[3], p[4], p[4], p[4], p[4]};
+}
+constexpr Hexahedron as_hexahedron(Prism const& p) {
+  return {p[0], p[1], p[2], p[2], p[3], p[4], p[5], p[5]};
+}
 
 /// Six tetrahedra for each hexahedron, which match those of all neighbours: a face is cut from its
 /// lowest-numbered corner, whichever side one looks from. The lowest corner of the cell is joined to the six
@@ -65,6 +77,26 @@ struct MultilinearShape {
     }
   }
 };
+
+/// The integrals of N_i N_j over the multilinear quad or hexahedron with these corners. Three Gauss points a
+/// direction are exact to degree five; N_i N_j det J has four at most.
+template <int Dim>
+Eigen::Matrix<double, 1 << Dim, 1 << Dim> multilinear_mass(Eigen::Matrix<double, 3, 1 << Dim> const& x) {
+  constexpr int corners = 1 << Dim;
+  Eigen::Matrix<double, corners, corners> mass;
+  mass.setZero();
+  const double node[3] = {0.5 - std::sqrt(0.15), 0.5, 0.5 + std::sqrt(0.15)},
+               weight[3] = {5. / 18, 4. / 9, 5. / 18};
+  for (int q = 0; q < (Dim == 3 ? 27 : 9); ++q) {
+    Eigen::Matrix<double, Dim, 1> place;
+    double w = 1;
+    for (int c = 0, rest = q; c < Dim; ++c, rest /= 3) place[c] = node[rest % 3], w *= weight[rest % 3];
+    const MultilinearShape<Dim> shape(place);
+    const Eigen::Matrix<double, 3, Dim> J = x * shape.derivatives;
+    mass += w * std::sqrt((J.transpose() * J).determinant()) * shape.weights * shape.weights.transpose();
+  }
+  return mass;
+}
 
 }  // namespace sinew
 

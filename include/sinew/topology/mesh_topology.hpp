@@ -26,6 +26,8 @@ struct MeshTopology {
   std::vector<Quad> quads{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
+  std::vector<Pyramid> pyramids{};
+  std::vector<Prism> prisms{};
   DataFile filename{};
   std::string conversion{};
 
@@ -41,6 +43,16 @@ struct MeshTopology {
         field("tetrahedra", &T::tetrahedra, "", "four points each", range::nonNegative).also("tetras"),
         field("hexahedra", &T::hexahedra, "", "eight points each, in VTK's order", range::nonNegative)
             .also("hexas"),
+        field("pyramids",
+              &T::pyramids,
+              "",
+              "five points each: the four around the base, and the apex",
+              range::nonNegative),
+        field("prisms",
+              &T::prisms,
+              "",
+              "six points each: those of a triangle, and in the same order those of the opposite one",
+              range::nonNegative),
         field("filename", &T::filename, "", "a file (.msh, .obj, .stl, .vtk) with what is not given here")
             .also("fileTopology"),
         more...);
@@ -64,13 +76,15 @@ struct MeshTopology {
             .quads = quads,
             .tetrahedra = tetrahedra,
             .hexahedra = hexahedra,
+            .pyramids = pyramids,
+            .prisms = prisms,
             .grows = grows};
   }
 
   /// The lists, for change: from here on they are no longer those of the file.
   ElementLists edit() {
     filename = {};
-    return {&position, &edges, &triangles, &quads, &tetrahedra, &hexahedra};
+    return {&position, &edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms};
   }
 
   /// Takes from the file, if one is named, the lists that are empty. Throws Error when it cannot be read.
@@ -106,6 +120,7 @@ SINEW_ONCE void MeshTopology::generate(std::string_view where) {
   };
   take(position, mesh.positions), take(edges, mesh.edges), take(triangles, mesh.triangles);
   take(quads, mesh.quads), take(tetrahedra, mesh.tetrahedra), take(hexahedra, mesh.hexahedra);
+  take(pyramids, mesh.pyramids), take(prisms, mesh.prisms);
 }
 
 }  // namespace sinew

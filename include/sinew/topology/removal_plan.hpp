@@ -20,12 +20,6 @@ struct RemovalPlan {
 
 namespace detail {
 
-// f(kind, list) for the five lists of a view
-template <class F>
-void for_each_kind(TopologyView const& t, F&& f) {
-  f(0, t.edges), f(1, t.triangles), f(2, t.quads), f(3, t.tetrahedra), f(4, t.hexahedra);
-}
-
 bool contains(std::span<Index const> outer, std::span<Index const> inner);
 
 }  // namespace detail
@@ -49,8 +43,6 @@ RemovalPlan plan_point_removal(std::vector<bool> const& stays, std::vector<Topol
 #include <algorithm>
 
 namespace sinew::detail {
-
-constexpr int dimension_of_kind(int kind) { return kind == 0 ? 1 : kind < 3 ? 2 : 3; }
 
 inline RemovalPlan whole_plan(std::size_t points, std::vector<TopologyView> const& topologies) {
   RemovalPlan plan{.points = std::vector<bool>(points, true), .elements = {}};
@@ -93,7 +85,7 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
   RemovalPlan plan = detail::whole_plan(points, topologies);
   auto forEachElement = [&](auto&& f) {
     for (std::size_t t = 0; t < topologies.size(); ++t)
-      detail::for_each_kind(topologies[t], [&](int kind, auto const& list) {
+      for_each_kind(topologies[t], [&](int kind, auto const& list) {
         for (std::size_t e = 0; e < list.size(); ++e) f(ElementOfBody{t, kind, e, list[e]});
       });
   };
@@ -107,7 +99,7 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
     forEachElement([&](ElementOfBody const& e) {
       if (stays(e))
         for (const Index i : e.points)
-          highest[std::size_t(i)] = std::max(highest[std::size_t(i)], detail::dimension_of_kind(e.kind));
+          highest[std::size_t(i)] = std::max(highest[std::size_t(i)], dimension_of_kind(e.kind));
     });
     return highest;
   };
@@ -141,12 +133,17 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
       }
   });
 
-  for (int kind = element_kinds - 1; kind-- > 0;)
+  auto isLarger = [](ElementOfBody const& a, ElementOfBody const& b) {
+    return a.points.size() > b.points.size() ||
+           (a.points.size() == b.points.size() && a.kind > b.kind);  // a quad in a tetrahedron
+  };
+  // larger ones first; in a hexahedron lie all others
+  for (const int kind : {6, 5, 3, 2, 1, 0})
     forEachElement([&](ElementOfBody const& e) {
       if (e.kind != kind || !touched[std::size_t(e.points[0])]) return;
       bool inGone = false, inKept = false;
       for (ElementOfBody const& other : around[std::size_t(place[std::size_t(e.points[0])])])
-        if (other.kind > kind && detail::contains(other.points, e.points))
+        if (isLarger(other, e) && detail::contains(other.points, e.points))
           (stays(other) ? inKept : inGone) = true;
       if (inGone && !inKept) plan.elements[e.topology][std::size_t(e.kind)][e.number] = false;
     });
@@ -170,7 +167,7 @@ SINEW_ONCE RemovalPlan plan_point_removal(std::vector<bool> const& stays,
   RemovalPlan plan = detail::whole_plan(stays.size(), topologies);
   plan.points = stays;
   for (std::size_t t = 0; t < topologies.size(); ++t)
-    detail::for_each_kind(topologies[t], [&](int kind, auto const& list) {
+    for_each_kind(topologies[t], [&](int kind, auto const& list) {
       for (std::size_t e = 0; e < list.size(); ++e)
         plan.elements[t][std::size_t(kind)][e] =
             std::all_of(list[e].begin(), list[e].end(), [&](Index i) { return stays[std::size_t(i)]; });

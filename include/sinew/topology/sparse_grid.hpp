@@ -57,7 +57,8 @@ TopologyView sparse_grid_view(T const& t) {
                     .hexahedra = t.hexahedra,
                     .places = t.points,
                     .fill = t.fill,
-                    .massFill = t.massFill};
+                    .massFill = t.massFill,
+                    .levels = t.levels};
   if constexpr (requires { t.finer; }) view.finer = {t.finer.positions, t.finer.hexahedra, t.parents};
   return view;
 }
@@ -84,6 +85,7 @@ void take_cells(T& t, detail::SparseCells cells) {
   t.fill.clear(), t.massFill.clear();
   if (!all(cells.stiffness)) t.fill = std::move(cells.stiffness);
   if (!all(cells.mass)) t.massFill = std::move(cells.mass);
+  t.levels = std::move(cells.levels);
   if constexpr (requires { t.finer; }) {
     t.finer = std::move(cells.finer);
     t.parents = std::move(cells.parents);

@@ -70,6 +70,7 @@ struct SparseGridMultipleTopology {
   std::vector<Edge> edges{};
   std::vector<Hexahedron> hexahedra{};
   std::vector<double> fill{}, massFill{};
+  std::vector<CellLevel> levels{};
   Mesh finer{};
   std::vector<int> parents{};  // the hexahedron of each finer cell
 

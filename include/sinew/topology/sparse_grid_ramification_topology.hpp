@@ -49,6 +49,7 @@ struct SparseGridRamificationTopology {
   std::vector<Edge> edges{};
   std::vector<Hexahedron> hexahedra{};
   std::vector<double> fill{}, massFill{};
+  std::vector<CellLevel> levels{};
   Mesh finer{};
   std::vector<int> parents{};  // the hexahedron of each finer cell
 

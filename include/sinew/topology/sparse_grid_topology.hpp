@@ -13,7 +13,8 @@ namespace sinew {
 
 /// The cells of a regular grid that touch a closed surface or lie inside it, as hexahedra over their own
 /// points only. Where a surface winds around a cell, the cell is inside; so surfaces of cavities look into
-/// them. With nbVirtualFinerLevels a cell is as filled as its parts of a finer grid are in the mean.
+/// them. Of points without triangles or quads, cells are kept that have one of them, and those that these
+/// shut in. With nbVirtualFinerLevels a cell is as filled as its parts of a finer grid are in the mean.
 struct SparseGridTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "SparseGridTopology";
@@ -37,13 +38,14 @@ struct SparseGridTopology {
   std::vector<Edge> edges{};
   std::vector<Hexahedron> hexahedra{};
   std::vector<double> fill{}, massFill{};
+  std::vector<CellLevel> levels{};
 
   static constexpr auto outputs() { return sparse_grid_outputs<SparseGridTopology>(); }
 
   TopologyView view() const { return sparse_grid_view(*this); }
 
-  /// Throws Error when the file cannot be read, there is no surface or it is not closed, the box is empty,
-  /// above 2^24 points, and when no cell is kept. What was made before then stays.
+  /// Throws Error when the file cannot be read, there is no point, the surface is not closed, the box is
+  /// empty, above 2^24 points, and when no cell is kept. What was made before then stays.
   void generate(std::string_view where);
 
   /// Throws Error where the state has fewer points than the grid.
@@ -61,7 +63,7 @@ namespace sinew {
 
 SINEW_ONCE void SparseGridTopology::generate(std::string_view where) {
   const std::string at = text(where, ": SparseGridTopology");
-  const Mesh surface = detail::read_surface(at, fileTopology, position, triangles, quads);
+  const Mesh surface = detail::read_surface(at, fileTopology, position, triangles, quads, true);
   const auto grid = cells_of_surface(*this, at, surface);
   auto finest = detail::finest_parts(grid, onlyInsideCells);
   detail::fill_by_surface(finest, grid, fillWeighted);

@@ -14,9 +14,10 @@
 namespace sinew::detail {
 
 /// The surface in a file, or else that of the triangles and quads, as triangles over points that are used.
-/// Throws Error where it cannot be read, has an index out of range, or no triangle.
+/// What may be a `cloud` of points is all of them where there is no triangle. Throws Error where it cannot be
+/// read, has an index out of range, or there is nothing.
 Mesh read_surface(std::string const& at, DataFile const& file, std::vector<Eigen::Vector3d> const& position,
-                  std::vector<Triangle> const& triangles, std::vector<Quad> const& quads);
+                  std::vector<Triangle> const& triangles, std::vector<Quad> const& quads, bool cloud = false);
 
 /// The box around a surface and a hundredth more, where not given.
 std::array<Eigen::Vector3d, 2> box_of_surface(Mesh const& surface, std::optional<Eigen::Vector3d> const& low,
@@ -27,7 +28,8 @@ bool triangle_meets_box(Eigen::Vector3d const (&triangle)[3], Eigen::Vector3d co
                         Eigen::Vector3d const& half);
 
 /// The cells of a regular grid, and on which side of a surface they are. Where a closed one winds around a
-/// cell, that is inside; of an open one, cells that it cuts off from the border of the grid.
+/// cell, that is inside; of an open one, or a cloud of points, cells that it cuts off from the border of the
+/// grid.
 struct SurfaceCells {
   enum Kind : char { unknown, touched, inside, outside };
 
@@ -127,7 +129,8 @@ inline double winding_number(std::vector<Eigen::Vector3d> const& x, std::vector<
 
 SINEW_ONCE Mesh read_surface(std::string const& at, DataFile const& file,
                              std::vector<Eigen::Vector3d> const& position,
-                             std::vector<Triangle> const& triangles, std::vector<Quad> const& quads) {
+                             std::vector<Triangle> const& triangles, std::vector<Quad> const& quads,
+                             bool cloud) {
   Mesh surface;
   if (!file.path.empty()) {
     try {
@@ -145,8 +148,12 @@ SINEW_ONCE Mesh read_surface(std::string const& at, DataFile const& file,
     surface.triangles.push_back({q[0], q[1], q[2]});
     surface.triangles.push_back({q[0], q[2], q[3]});
   }
+  if (surface.triangles.empty() && cloud && !surface.positions.empty()) return surface;
   if (surface.triangles.empty())
-    throw Error(at, "there is no surface; give fileTopology, or position with triangles or quads");
+    throw Error(
+        at,
+        cloud ? "there is no point; give fileTopology, or position, with triangles or quads for a surface"
+              : "there is no surface; give fileTopology, or position with triangles or quads");
   remove_unused_points(surface);
   return surface;
 }
@@ -170,13 +177,16 @@ SINEW_ONCE SurfaceCells::SurfaceCells(std::string const& at, Mesh const& surface
     slack[c] = 1e-9 * (high[c] - low[c]) / cells[c] + 1e-15 * std::max(std::abs(low[c]), std::abs(high[c]));
   }
   kinds.assign(std::size_t(cells.prod()), unknown);
-  for (auto const& t : surface.triangles) {
-    const Eigen::Vector3d corners[3] = {surface.positions[std::size_t(t[0])],
-                                        surface.positions[std::size_t(t[1])],
-                                        surface.positions[std::size_t(t[2])]};
-    forCellsNear(corners, [&](Eigen::Vector3i const& c) { kind(c) = touched; });
-  }
-  decideRest(surface, at, mayBeOpen);
+  auto touch = [&](Eigen::Vector3d const& a, Eigen::Vector3d const& b, Eigen::Vector3d const& c) {
+    const Eigen::Vector3d corners[3] = {a, b, c};
+    forCellsNear(corners, [&](Eigen::Vector3i const& cell) { kind(cell) = touched; });
+  };
+  auto const& x = surface.positions;
+  for (auto const& t : surface.triangles)
+    touch(x[std::size_t(t[0])], x[std::size_t(t[1])], x[std::size_t(t[2])]);
+  const bool cloud = surface.triangles.empty();
+  for (std::size_t i = 0; cloud && i < x.size(); ++i) touch(x[i], x[i], x[i]);
+  decideRest(surface, at, mayBeOpen || cloud);
 }
 
 SINEW_ONCE void SurfaceCells::decideRest(Mesh const& surface, std::string const& at, bool mayBeOpen) {

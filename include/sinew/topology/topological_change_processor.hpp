@@ -154,6 +154,10 @@ struct TopologicalChangeProcessor {
       if (loop && !(changes.back().time > 0))
         throw Error(where, "the file ends at time 0, and cannot go round in a loop; give later times");
     }
+    if (!topology.pyramids.empty() || !topology.prisms.empty())
+      throw Error(where,
+                  "the topology of its node has pyramids or prisms, which neither lists nor files name; "
+                  "remove them by a TopologyBoundingTrasher, or a CarvingManager");
     if (kindOf(topology) < 0 && !adds && pointsToRemove.empty())
       throw Error(where, "the topology of its node has no elements that could be removed; give it some");
   }
@@ -217,7 +221,7 @@ struct TopologicalChangeProcessor {
     front = {};
     for (std::size_t kind = 0; kind < kinds; ++kind) {
       auto& all = this->*lists_of[kind];
-      Renumbering const& r = kind < element_kinds ? change.elements[kind] : change.points;
+      Renumbering const& r = kind < listed_kinds ? change.elements[kind] : change.points;
       if (!r.changes()) continue;
       if (all.size() != r.now.size()) {
         all.clear();
@@ -236,7 +240,9 @@ struct TopologicalChangeProcessor {
   std::string_view notice() const { return noticed; }
 
  private:
-  static constexpr std::size_t kinds = element_kinds + 1;  // and points behind them
+  // of its lists and files, which have neither pyramids nor prisms; points are behind them
+  static constexpr int listed_kinds = int(ElementKind::hexahedron) + 1;
+  static constexpr std::size_t kinds = listed_kinds + 1;
   using Sizes = std::array<std::size_t, kinds>;
   static constexpr std::string_view gone = "elements to remove are not there any more";
   static constexpr std::array<std::vector<int> TopologicalChangeProcessor::*, kinds> lists_of{
@@ -266,7 +272,7 @@ struct TopologicalChangeProcessor {
   // that of the highest dimension; -1 for none
   static int kindOf(TopologyView const& topology) {
     const Sizes size = sizes(topology, 0);
-    for (int kind = element_kinds; kind-- > 0;)
+    for (int kind = listed_kinds; kind-- > 0;)
       if (size[std::size_t(kind)] > 0) return kind;
     return -1;
   }
@@ -278,7 +284,7 @@ struct TopologicalChangeProcessor {
   void checkNumbers(std::string const& where, TopologyView const& topology) const {
     const Sizes size = sizes(topology, 0);
     const auto from = inputs();
-    for (std::size_t kind = 0; kind < element_kinds; ++kind)
+    for (std::size_t kind = 0; kind < listed_kinds; ++kind)
       for (const int e : *from[kind])
         if (e < 0 || std::size_t(e) >= size[kind])
           throw Error(where,
@@ -348,7 +354,7 @@ struct TopologicalChangeProcessor {
     auto more = [&](auto& list) {
       while (corner < e.numbers.size()) {
         list.emplace_back();
-        for (Index& i : list.back()) i = numberOf(element_kinds, e.numbers[corner++]);
+        for (Index& i : list.back()) i = numberOf(listed_kinds, e.numbers[corner++]);
       }
     };
     std::size_t before = 0;
@@ -374,6 +380,9 @@ struct TopologicalChangeProcessor {
         return behind(added.tetrahedra);
       case ElementKind::hexahedron:
         return behind(added.hexahedra);
+      case ElementKind::pyramid:
+      case ElementKind::prism:
+        return;
     }
   }
 };

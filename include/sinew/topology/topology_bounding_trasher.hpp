@@ -37,8 +37,7 @@ struct TopologyBoundingTrasher {
                          " m along ",
                          "xyz"[k],
                          ", and holds nothing; give the lower end first"));
-    if (topology.hexahedra.empty() && topology.tetrahedra.empty() && topology.quads.empty() &&
-        topology.triangles.empty() && topology.edges.empty())
+    if (dimension_of(topology) == 0)
       throw Error(where, "the topology of its node has no elements that could be removed; give it some");
   }
 
@@ -51,12 +50,8 @@ struct TopologyBoundingTrasher {
             gone.push_back(Index(e));
             break;
           }
-      return !list.empty();
     };
-    const bool solid =
-        find(topology.tetrahedra, elements.tetrahedra) | find(topology.hexahedra, elements.hexahedra);
-    if (!solid && !(find(topology.triangles, elements.triangles) | find(topology.quads, elements.quads)))
-      find(topology.edges, elements.edges);
+    for_each_highest(topology, [&](int kind, auto const& list) { find(list, elements.of(kind)); });
     for (auto const* list : elements.lists())
       if (!list->empty()) return true;
     return false;

@@ -101,12 +101,13 @@ class KnownBorders {
         for (const Index i : element) key = (key ^ std::uint64_t(i)) * 1099511628211u;
       key = (key ^ elements.size()) * 1099511628211u;
     };
-    add(topology.tetrahedra);
-    add(topology.hexahedra);
+    for_each_kind(topology, [&](int kind, auto const& elements) {
+      if (dimension_of_kind(kind) == 3) add(elements);
+    });
     constexpr std::size_t enough = 256;  // of a body that is carved, those of long ago go
     if (known_.size() >= enough && !known_.count(key)) known_.clear();
     const auto [found, isNew] = known_.try_emplace(key);
-    if (isNew) found->second = border_of(topology.tetrahedra, topology.hexahedra);
+    if (isNew) found->second = border_of(topology);
     return found->second;
   }
   /// The faces of the convex hull of points.
@@ -130,7 +131,7 @@ std::vector<T> listed(std::span<T const> elements) {
   return {elements.begin(), elements.end()};
 }
 inline void show_elements(TopologyView const& topology, KnownBorders& borders, SeenBody& body) {
-  if (!topology.tetrahedra.empty() || !topology.hexahedra.empty()) {
+  if (dimension_of(topology) == 3) {
     Border const& border = borders.of(topology);
     body.triangles = border.triangles;
     body.quads = border.quads;
@@ -148,9 +149,15 @@ Eigen::Vector3d seen_place(State const& state, std::size_t i) {
   return x;
 }
 
-// a ball as an octahedron, each of whose faces is divided in 16
-inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& body) {
+// what is within a radius of a segment: a ball, or halves of one at both ends and a tube between them; the
+// ball is an octahedron, each of whose faces is divided in 16
+inline void add_capsule(Eigen::Vector3d const& start, Eigen::Vector3d const& end, double radius,
+                        SeenBody& body) {
   constexpr int n = 4;
+  const bool hasTube = start != end;
+  Eigen::Matrix3d frame = Eigen::Matrix3d::Identity();
+  if (hasTube)
+    frame = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), end - start).toRotationMatrix();
   for (int face = 0; face < 8; ++face) {
     const Eigen::Vector3d x(face & 1 ? -1 : 1, 0, 0), y(0, face & 2 ? -1 : 1, 0), z(0, 0, face & 4 ? -1 : 1);
     const bool turned = (face & 1) ^ (face >> 1 & 1) ^ (face >> 2 & 1);
@@ -158,8 +165,9 @@ inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& bod
     auto at = [&](int i, int j) { return first + Index(i * (i + 1) / 2 + j); };
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= i; ++j)
-        body.points.push_back(centre +
-                              radius * (double(n - i) * x + double(i - j) * y + double(j) * z).normalized());
+        body.points.push_back(
+            (face & 4 ? start : end) +
+            radius * (frame * (double(n - i) * x + double(i - j) * y + double(j) * z).normalized()));
     auto add = [&](Index a, Index b, Index c) {
       if (turned) std::swap(b, c);
       body.triangles.push_back({a, b, c});
@@ -169,6 +177,15 @@ inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& bod
         add(at(i, j), at(i + 1, j), at(i + 1, j + 1));
         if (j < i) add(at(i, j), at(i + 1, j + 1), at(i, j + 1));
       }
+    if (!hasTube || face & 4) continue;
+    const auto ring = Index(body.points.size());
+    for (int i = 0; i <= n; ++i)
+      for (auto const& p : {start, end})
+        body.points.push_back(p + radius * (frame * (double(n - i) * x + double(i) * y).normalized()));
+    for (Index i = ring; i < ring + 2 * n; i += 2) {
+      add(i, i + 2, i + 3);
+      add(i, i + 3, i + 1);
+    }
   }
 }
 
@@ -176,23 +193,33 @@ inline void add_ball(Eigen::Vector3d const& centre, double radius, SeenBody& bod
 template <class Model, class State>
 void show_collision(Model const& model, State const& state, KnownBorders& borders, SeenBody& body) {
   CollisionSurface const& surface = model.surface;
-  if (surface.hull) {  // its corners where it has faces; flat ones by all of their points
+  if (surface.shape == Shape::hull) {  // its corners where it has faces; flat ones by all of their points
     using D = typename State::DataTypes;
-    if constexpr (D::rigid && D::spatial == 3) {
-      auto const& faces = borders.ofHull(surface.hull->points());
-      for (auto const& x : state.position) {
+    if constexpr (D::rigid && D::spatial == 3)
+      for (std::size_t e = 0; e < surface.size(); ++e) {
+        auto const& x = state.position[std::size_t(surface.elements[e][0])];
+        auto const& points = surface.hullOf(int(e)).points();
+        auto place = [&](Eigen::Vector3d const& p) -> Eigen::Vector3d {
+          return x.center.template cast<double>() + x.orientation.template cast<double>() * p;
+        };
+        if (const double radius = surface.radiusOf(int(e)); radius > 0) {
+          add_capsule(place(points.front()), place(points.back()), radius, body);
+          continue;
+        }
         const auto first = Index(body.points.size());
-        for (auto const& p : surface.hull->points())
-          body.points.push_back(x.center.template cast<double>() + x.orientation.template cast<double>() * p);
-        for (auto const& [a, b, c] : faces) body.triangles.push_back({first + a, first + b, first + c});
+        for (auto const& p : points) body.points.push_back(place(p));
+        for (auto const& [a, b, c] : borders.ofHull(points))
+          body.triangles.push_back({first + a, first + b, first + c});
       }
-    }
     return;
   }
-  if (surface.shape == Shape::sphere) {
-    for (std::size_t e = 0; e < surface.size() && e < surface.radius.size(); ++e)
-      if (const auto i = std::size_t(surface.elements[e][0]); i < state.size())
-        add_ball(seen_place(state, i), surface.radius[e], body);
+  if (!surface.radius.empty()) {
+    for (std::size_t e = 0; e < surface.size() && e < surface.radius.size(); ++e) {
+      auto const& ends = surface.elements[e];
+      const auto i = std::size_t(ends[0]), j = std::size_t(ends[1] < 0 ? ends[0] : ends[1]);
+      if (std::max(i, j) < state.size())
+        add_capsule(seen_place(state, i), seen_place(state, j), surface.radius[e], body);
+    }
     return;
   }
   for (std::size_t i = 0; i < state.size(); ++i) body.points.push_back(seen_place(state, i));

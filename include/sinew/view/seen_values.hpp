@@ -27,13 +27,14 @@ struct SeenLine {
 
 namespace detail {
 
-/// Forces of volume elements, tetrahedra or hexahedra, that are computed element by element.
+/// Forces of volume elements that are computed element by element.
 template <class C>
 concept VolumeForce = requires(C const c) {
   c.driver.packs;
   c.law();
   requires C::DataTypes::spatial == 3 && !C::DataTypes::rigid;
-  requires(C::Driver::arity == 4 && requires { C::needsTetrahedra; }) || C::Driver::arity == 8;
+  requires(C::Driver::arity == 4 && requires { C::needsTetrahedra; }) || C::Driver::arity == 8 ||
+              requires { C::Driver::Law::points; };
 };
 /// Springs between two points.
 template <class C>
@@ -45,6 +46,16 @@ concept SpringForce = requires(C const c) {
 
 inline double volume_of(Eigen::Vector3d const (&x)[4]) {
   return std::abs((x[1] - x[0]).cross(x[2] - x[0]).dot(x[3] - x[0])) / 6;
+}
+// of two tetrahedra beside a diagonal of the base
+inline double volume_of(Eigen::Vector3d const (&x)[5]) {
+  const Eigen::Vector3d across = x[2] - x[0], up = x[4] - x[0];
+  return std::abs((x[1] - x[0]).cross(across).dot(up) + across.cross(x[3] - x[0]).dot(up)) / 6;
+}
+// of three
+inline double volume_of(Eigen::Vector3d const (&x)[6]) {
+  auto six = [&x](int i, int j, int k, int l) { return (x[j] - x[i]).cross(x[k] - x[i]).dot(x[l] - x[i]); };
+  return std::abs(six(0, 1, 2, 5) + six(0, 1, 5, 4) + six(0, 4, 5, 3)) / 6;
 }
 // of six tetrahedra around a diagonal
 inline double volume_of(Eigen::Vector3d const (&x)[8]) {

@@ -9,6 +9,7 @@
 #include <thrust/iterator/counting_iterator.h>
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstring>
 #include <new>
@@ -34,15 +35,41 @@ inline void check(cudaError_t code, char const* what) {
                 "take DataTypes of the processor, such as Vec3f for CudaVec3f");
   throw Error(what, text("the GPU says: ", cudaGetErrorString(code)));
 }
-/// The stream on which all work of the calling thread is queued: in order, waited for by the first copy to
-/// the host. Another may be set to record work as a graph.
-inline cudaStream_t& stream() {
-  static thread_local cudaStream_t current = [] {
-    cudaStream_t made = nullptr;
-    check(cudaStreamCreateWithFlags(&made, cudaStreamNonBlocking), "Sinew on a GPU");
-    return made;
-  }();
-  return current;
+#endif
+
+/// Devices of a program, at most.
+inline constexpr int most_devices = 16;
+
+/// The device that the calling thread works on: memory is that of this one, work is queued there. On Thrust's
+/// backends for the host its number changes nothing.
+inline int current_device() {
+  int device = 0;
+#if SINEW_CUDA
+  check(cudaGetDevice(&device), "Sinew on a GPU");
+  if (device >= most_devices)
+    throw Error("Sinew on a GPU", text("GPU ", device, "; only ", most_devices, " of a machine are used"));
+#endif
+  return device;
+}
+/// How many there are; on the host as many as there may be.
+inline int device_count() {
+#if SINEW_CUDA
+  int count = 0;
+  check(cudaGetDeviceCount(&count), "Sinew on a GPU");
+  return std::min(count, most_devices);
+#else
+  return most_devices;
+#endif
+}
+
+#if SINEW_CUDA
+/// The stream on which all work of the calling thread on its device is queued: in order, waited for by the
+/// first copy to the host.
+inline cudaStream_t stream() {
+  static thread_local std::array<cudaStream_t, most_devices> all{};
+  cudaStream_t& own = all[std::size_t(current_device())];
+  if (!own) check(cudaStreamCreateWithFlags(&own, cudaStreamNonBlocking), "Sinew on a GPU");
+  return own;
 }
 #endif
 

@@ -4,7 +4,9 @@
 #include <sinew/core/workers.hpp>
 #include <sinew/gpu/block_rows.hpp>
 #include <sinew/gpu/multigrid_loops.hpp>
+#include <sinew/gpu/multigrid_team.hpp>
 #include <sinew/gpu/reduction.hpp>
+#include <sinew/gpu/repeated_work.hpp>
 #include <sinew/gpu/row_teams.hpp>
 #include <sinew/linalg/multigrid.hpp>
 
@@ -163,18 +165,31 @@ struct Level {
   }
   std::size_t scalars() const { return std::size_t(points) * stride<R>; }
   double const* bound() const { return numbers.data(); }
+  LevelView<R> view() const {
+    return {points,
+            rows,
+            product.data(),
+            x.data(),
+            r.data(),
+            {d[0].data(), d[1].data()},
+            bound(),
+            down.start.data(),
+            down.columns.data(),
+            down.turnedStart.data(),
+            down.turnedRows.data(),
+            down.turnedSlots.data(),
+            down.p.data()};
+  }
 
   void findBound() {
     double *const diagonal = numbers.data() + 1, *const squares = diagonal + FindBound::steps;
     float *const from = d[0].data(), *const to = d[1].data();
     sum_indices(scalars(), StartVector<R>{from, x.data()}, squares);
     for (int k = 0; k < FindBound::steps; ++k) {
-      for_each_index(scalars(), Normalise{from, squares + k});
-      eachRow(Multiply<R>{rows, product.data(), from, to});
-      sum_indices(scalars(), Dot{from, to}, diagonal + k);
-      sum_indices(scalars(),
-                  NextDirection{from, to, x.data(), diagonal + k, k > 0 ? squares + k : nullptr},
-                  squares + k + 1);
+      eachRow(Multiply<R>{rows, product.data(), from, squares + k, to});
+      sum_indices(scalars(), Dot{from, to, squares + k}, diagonal + k);
+      sum_indices(
+          scalars(), NextDirection{from, to, x.data(), diagonal + k, squares + k, k > 0}, squares + k + 1);
     }
     for_each_index(1, FindBound{diagonal, squares, numbers.data()});
   }
@@ -254,24 +269,11 @@ class MultigridCycle {
   using Coord = typename D::Coord;
 
   MultigridCycle() = default;
-  MultigridCycle(MultigridCycle&& other) noexcept { *this = std::move(other); }
-  MultigridCycle& operator=(MultigridCycle&& other) noexcept {
-    forgetGraph();
-    other.forgetGraph();
-    settings = other.settings;
-    built = std::exchange(other.built, false);
-    fine_ = std::move(other.fine_);
-    coarse_ = std::move(other.coarse_);
-    dense_ = std::move(other.dense_);
-    numbers_ = std::move(other.numbers_);
-    held_ = std::move(other.held_);
-    unknowns_ = other.unknowns_;
-    return *this;
-  }
+  MultigridCycle(MultigridCycle&&) = default;
+  MultigridCycle& operator=(MultigridCycle&&) = default;
   // a copy of a body makes its own
   MultigridCycle(MultigridCycle const&) {}
   MultigridCycle& operator=(MultigridCycle const&) { return *this = MultigridCycle(); }
-  ~MultigridCycle() { forgetGraph(); }
 
   MultigridSettings settings{};
   bool built = false;  // false: the next update finds aggregates and patterns
@@ -290,7 +292,10 @@ class MultigridCycle {
   void update(Run const& workers, BlockRows<D> const& rows, unsigned char const* held, Coord const* x) {
     if (built && held && sum_on_host(rows.rows, HeldChanged{held, held_.data()}) != 0) built = false;
     if (!built) build(workers, rows, held, x);
-    fill(rows, held, x);
+    const Filled now{rows.values.data(), rows.diagonal.device(), held, x};
+    if (!(now == std::exchange(filled_, now))) fillWork_.forget();
+    sum_buffer();
+    fillWork_.run("the set-up of multigrid on the GPU", [&] { fill(rows, held, x); });
   }
 
   /// z = M^-1 r, *along = r.z; *square = r.r is on the device.
@@ -307,10 +312,29 @@ class MultigridCycle {
                                        fine_.r.data(),
                                        fine_.d[0].data(),
                                        fine_.x.data()});
-    launchCycle();
+    cycleWork_.run("a cycle on the GPU", [&] { cycle(fine_, 0); });
     sum_indices(std::size_t(n),
                 multigrid::Leave<D>{fine_.unit.data(), fine_.x.data(), numbers_.data() + 3, square, n, r, z},
                 along);
+  }
+
+  /// Whether solves are one kernel (team()).
+  bool isWhole() const {
+    return coarse_.size() <= std::size_t(MultigridTeam<D>::mostLevels) &&
+           std::size_t(fine_.points) <= most_points_of_whole_multigrid();
+  }
+  /// The cycle as the threads of a team see it, without what iterates.
+  MultigridTeam<D> team() const {
+    MultigridTeam<D> t{};
+    t.fine = fine_.view();
+    for (std::size_t k = 0; k < coarse_.size(); ++k) t.coarse[k] = coarse_[k].view();
+    t.levels = int(coarse_.size());
+    t.dense = dense_.data();
+    t.unknowns = unknowns_;
+    t.degree = settings.degree;
+    t.unit = fine_.unit.data();
+    t.diagonalSize = numbers_.data() + 3;
+    return t;
   }
 
   // what threads do
@@ -329,23 +353,23 @@ class MultigridCycle {
   DeviceArray<double> numbers_{};  // sums of places, and of the diagonal
   DeviceArray<unsigned char> held_{};
   int unknowns_ = 0;  // of the dense factor; 0: the last level is smoothed
-#if SINEW_CUDA
-  cudaGraphExec_t graph_ = nullptr;
-#endif
-
-  void forgetGraph() {
-#if SINEW_CUDA
-    if (graph_) cudaGraphExecDestroy(graph_);
-    graph_ = nullptr;
-#endif
-  }
+  RepeatedWork cycleWork_{}, fillWork_{};
+  struct Filled {  // what the recorded filling is of
+    Real const* values = nullptr;
+    int const* diagonal = nullptr;
+    unsigned char const* held = nullptr;
+    Coord const* x = nullptr;
+    bool operator==(Filled const&) const = default;
+  };
+  Filled filled_{};
 
   int solvable() const { return std::min(std::max(settings.coarsestSize, 6), mostUnknowns); }
 
   // aggregates and patterns, by the processor's Multigrid over the same matrix
   template <class Run>
   void build(Run const& workers, BlockRows<D> const& rows, unsigned char const* held, Coord const* x) {
-    forgetGraph();
+    cycleWork_.forget();
+    fillWork_.forget();
     const std::size_t n = rows.rows;
     auto const& sliceFirst = std::as_const(rows.sliceFirst).host();
     auto const& columns = std::as_const(rows.column).host();
@@ -535,11 +559,10 @@ class MultigridCycle {
     double* const row = dense_.data() + std::ptrdiff_t(unknowns_) * unknowns_;
     for_each_index(std::size_t(unknowns_),
                    multigrid::DenseRow<R>{level.rows, level.matrix.data(), unknowns_, dense_.data()});
-    multigrid::invert<R>(dense_.data(), unknowns_, row);
+    multigrid::invert(dense_.data(), unknowns_, row);
   }
 
-  // x from r of the finest level, whose first step has been made
-  void cycle() { cycle(fine_, 0); }
+  // x from r of a level, whose first step has been made
   template <int R>
   void cycle(multigrid::Level<R>& level, std::size_t index) {
     using namespace multigrid;
@@ -575,32 +598,6 @@ class MultigridCycle {
                               level.d[level.current].data(),
                               level.x.data()});
     level.smooth(1, settings.degree, false);
-  }
-
-  // the same work each time, so that a GPU has it as a graph: a launch of its own takes longer than the work
-  // of small levels
-  void launchCycle() {
-#if SINEW_CUDA
-    if (!graph_) {
-      char const* const what = "MultigridLinearSolver on a GPU";
-      cudaGraph_t graph = nullptr;
-      check(cudaStreamBeginCapture(stream(), cudaStreamCaptureModeThreadLocal), what);
-      try {
-        cycle();
-      } catch (...) {
-        cudaStreamEndCapture(stream(), &graph);
-        if (graph) cudaGraphDestroy(graph);
-        throw;
-      }
-      check(cudaStreamEndCapture(stream(), &graph), what);
-      const cudaError_t made = cudaGraphInstantiate(&graph_, graph, 0);
-      cudaGraphDestroy(graph);
-      check(made, what);
-    }
-    check(cudaGraphLaunch(graph_, stream()), "a cycle on the GPU");
-#else
-    cycle();
-#endif
   }
 };
 

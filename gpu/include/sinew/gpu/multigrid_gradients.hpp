@@ -7,6 +7,7 @@
 #include <sinew/gpu/vector_operations.hpp>
 #include <sinew/solver/linear_system.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <type_traits>
@@ -66,9 +67,9 @@ struct CycleDirection {
 
 /// What MultigridLinearSolver does where all states below it are of points over D: the cycle and what
 /// iterates on the device, over the matrix that is assembled there. Bodies are solved one after the other,
-/// since nothing joins them. The host sees the residual of each iteration. `again`: with the matrix and the
-/// cycle of the last solve; `update`: the cycle is filled anew. False where it cannot: constraints mix
-/// coordinates, or another kind of state is there.
+/// since nothing joins them; small ones by one kernel, of others the host sees the residual of each
+/// iteration. `again`: with the matrix and the cycle of the last solve; `update`: the cycle is filled anew.
+/// False where it cannot: constraints mix coordinates, or another kind of state is there.
 template <class D, class Operations, class Solver, class MultiVec>
 bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors factors, MultiVec& x,
                          MultiVec& b, bool update, bool again) {
@@ -101,7 +102,8 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
     });
     if (!take_held<D>(operations, p, own->held, own->bodies, 0)) return false;
   }
-  own->numbers.resize(4);
+  own->found.resize(std::size_t(solver.iterations) + 2);
+  own->numbers.resize(std::max<std::size_t>(4, own->found.size()));
   double* const numbers = own->numbers.data();
   const detail::CycleScalars s{numbers, numbers + 1, numbers + 2, numbers + 3};
   solver.residuals.clear();
@@ -130,13 +132,38 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
         mine.cycle.update(
             some_workers(operations.workers()), state.solverWorkspace.rows, system.held, places);
       }
+      auto keep = [&](int i, double left) {
+        if (i < int(solver.residuals.size()))
+          solver.residuals[std::size_t(i)] = std::max(left, solver.residuals[std::size_t(i)]);
+        else
+          keep_residual(solver.residuals, left);
+      };
+      auto product = system.product;
+      if (mine.cycle.isWhole()) {
+        MultigridTeam<D> team = mine.cycle.team();
+        team.product = product;
+        team.held = system.held;
+        team.x = state[x.id].device();
+        team.r = state[r.id].device();
+        team.p = state[p.id].overwrite();
+        team.q = state[q.id].overwrite();
+        team.z = state[z.id].overwrite();
+        mine.product.resize(points);
+        team.s = mine.product.data();
+        team.iterations = solver.iterations;
+        team.tolerance = solver.tolerance;
+        team.residuals = numbers;
+        run_whole_team(points, team, mine.team);
+        copy_to_host(own->found.data(), numbers, own->found.size());
+        for (int i = 1; i < int(own->found[0]); ++i) keep(i, own->found[std::size_t(i) + 1]);
+        return;
+      }
       auto const& residual = std::as_const(state[r.id]);
       double whole = 0, size = 0;
       V::dot(residual, residual, s.size);
       copy_to_host(&whole, s.size, 1);
       if (!std::isfinite(whole)) V::teq(state[x.id], Real(notSolved));
       if (!(whole > 0) || !std::isfinite(whole) || 1 <= solver.tolerance) return;
-      auto product = system.product;
       mine.cycle.apply(residual.device(), state[p.id].overwrite(), s.size, s.rho);
       for (int i = 0; i < solver.iterations; ++i) {
         product.x = std::as_const(state[p.id]).device();
@@ -150,11 +177,7 @@ bool multigrid_gradients(Operations& operations, Solver& solver, MatrixFactors f
                                             s},
                     s.size);
         copy_to_host(&size, s.size, 1);
-        const double left = std::sqrt(size / whole);
-        if (i + 1 < int(solver.residuals.size()))
-          solver.residuals[std::size_t(i) + 1] = std::max(left, solver.residuals[std::size_t(i) + 1]);
-        else
-          keep_residual(solver.residuals, left);
+        keep(i + 1, std::sqrt(size / whole));
         if (!(size > solver.tolerance * solver.tolerance * whole)) break;
         mine.cycle.apply(residual.device(), state[z.id].overwrite(), s.size, s.rho);
         V::dot(std::as_const(state[q.id]), std::as_const(state[z.id]), s.turned);

@@ -14,6 +14,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <utility>
 
 namespace sinew::gpu::multigrid {
 
@@ -479,41 +480,54 @@ struct StartVector {
     return double(value) * double(value);
   }
 };
-/// d /= its length
-struct Normalise {
-  float* d;
-  double const* square;
-  SINEW_HD void operator()(int i) const { d[i] *= float(1 / std::sqrt(*square)); }
-};
-/// q = A d of a row
+/// 1 / the length of a direction, from its square
+SINEW_INLINE float over_length(double square) { return float(1 / std::sqrt(square)); }
+/// q = A d / |d| of a row
 template <int R>
 struct Multiply {
   using Real = float;
   static constexpr int sums = R;
   Rows<R> rows;
   float const *values, *d;
+  double const* square;  // d.d
   float* q;
   SINEW_HD void part(int i, int lane, int lanes, float* sum) const {
     add_row<R>(rows, values, d, i, lane, lanes, sum);
   }
   SINEW_HD void finish(int i, float const* sum) const {
-    for (int c = 0; c < R; ++c) q[stride<R> * std::ptrdiff_t(i) + c] = sum[c];
+    const float over = over_length(*square);
+    for (int c = 0; c < R; ++c) q[stride<R> * std::ptrdiff_t(i) + c] = over * sum[c];
   }
 };
+/// d.q / |d|
 struct Dot {
-  float const *a, *b;
-  SINEW_HD double operator()(int i) const { return double(a[i]) * double(b[i]); }
+  float const *d, *q;
+  double const* square;
+  struct OfThread {
+    float const *d, *q;
+    float over;
+    SINEW_HD double operator()(int i) const { return double(over * d[i]) * double(q[i]); }
+  };
+  SINEW_HD OfThread ofThread() const { return {d, q, over_length(*square)}; }
 };
-/// The next direction q - own d - last x, which becomes d, and d the one before, x; its square.
+/// With e = d / |d| the next direction q - own e - |d| x, which becomes d, and e the one before, x; its
+/// square.
 struct NextDirection {
   float *d, *q, *x;
-  double const *own, *lastSquare;  // lastSquare: null in the first step
-  SINEW_HD double operator()(int i) const {
-    const float last = lastSquare ? float(std::sqrt(*lastSquare)) : 0.f;
-    const float next = q[i] - (float(*own) * d[i] + last * x[i]);
-    x[i] = d[i];
-    d[i] = next;
-    return double(next) * double(next);
+  double const *own, *square;
+  bool later;  // there is one before
+  struct OfThread {
+    float *d, *q, *x;
+    float own, over, last;
+    SINEW_HD double operator()(int i) const {
+      const float e = over * d[i], next = q[i] - (own * e + last * x[i]);
+      x[i] = e;
+      d[i] = next;
+      return double(next) * double(next);
+    }
+  };
+  SINEW_HD OfThread ofThread() const {
+    return {d, q, x, float(*own), over_length(*square), later ? float(std::sqrt(*square)) : 0.f};
   }
 };
 /// 1.05 times the largest eigenvalue of what the steps have found; squares[k] is that before step k.
@@ -723,8 +737,8 @@ SINEW_INLINE void invert_in_place(double* a, int n, double* row, Each&& each, Sy
 #if SINEW_CUDA
 namespace detail {
 inline constexpr int invertingThreads = 1024;
-template <int R>
-__global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int n, double* row) {
+template <class Number>
+__global__ void __launch_bounds__(invertingThreads) invert_kernel(Number* a, int n, Number* row) {
   invert_in_place(
       a,
       n,
@@ -734,13 +748,110 @@ __global__ void __launch_bounds__(invertingThreads) invert_kernel(double* a, int
       },
       [] { __syncthreads(); });
 }
+inline constexpr int sweepingWarps = 16;
+/// The same for up to 16 Rows unknowns, with the lower triangle in registers, that of rows from 128 on in
+/// shared memory: a warp has each 16th row, a lane each 32nd column. The steps are those of the symmetric
+/// sweep, a -> -a^-1 (Beaton 1964): with the pivot d = a_kk, a_ij -= a_ik a_kj / d, a_ik = a_ik / d, a_kk =
+/// -1 / d.
+template <int Rows>
+struct SweptTriangle {
+  static constexpr int kept = Rows < 8 ? Rows : 8, tiles = (Rows + 1) / 2;
+  double registers[kept][(kept + 1) / 2];
+  double* others;  // of this thread, 32 sweepingWarps apart
+
+  // f(entry, c) for the entries of its row R, or C alone
+  template <int R, class F>
+  __device__ void ofRow(F&& f) {
+    [&]<int... C>(std::integer_sequence<int, C...>) {
+      (f(entry<R, C>(), C), ...);
+    }(std::make_integer_sequence<int, R / 2 + 1>{});
+  }
+  template <int R, int C>
+  __device__ double& entry() {
+    if constexpr (R < kept)
+      return registers[R][C];
+    else
+      return others[((R / 2 + R % 2) * (R / 2 + 1) - kept / 2 * (kept / 2 + 1) + C) * 32 * sweepingWarps];
+  }
+  // f.operator()<R>() for all its rows from First on
+  template <int First = 0, class F>
+  __device__ static void eachRow(F&& f) {
+    [&]<int... R>(std::integer_sequence<int, R...>) {
+      (f.template operator()<First + R>(), ...);
+    }(std::make_integer_sequence<int, Rows - First>{});
+  }
+};
+template <int Rows>
+__global__ void __launch_bounds__(32 * sweepingWarps, 1) sweep_kernel(double* a, int n) {
+  constexpr int warps = sweepingWarps, tiles = (Rows + 1) / 2;
+  __shared__ double columns[2][32 * tiles];  // column k, as all threads read it, of two steps in turn
+  extern __shared__ double shared[];
+  const int warp = int(threadIdx.x) / 32, lane = int(threadIdx.x) % 32;
+  using Triangle = SweptTriangle<Rows>;
+  Triangle own;
+  own.others = shared + threadIdx.x;
+  Triangle::eachRow([&]<int R>() {
+    const int i = warp + warps * R;
+    own.template ofRow<R>([&](double& entry, int c) {
+      const int j = lane + 32 * c;
+      entry = i < n && j <= i ? a[std::ptrdiff_t(i) * n + j] : 0;
+    });
+  });
+  Triangle::eachRow([&]<int Strip>() {
+#pragma unroll 1
+    for (int k = warps * Strip; k < min(n, warps * Strip + warps); ++k) {
+      double* const column = columns[k % 2];
+      if (warp == k % warps)
+        own.template ofRow<Strip>([&](double& entry, int c) {
+          if (lane + 32 * c <= k) column[lane + 32 * c] = entry;
+        });
+      if (lane == k % 32)
+        Triangle::template eachRow<Strip>([&]<int R>() {
+          if (warp + warps * R > k) column[warp + warps * R] = own.template entry<R, Strip / 2>();
+        });
+      __syncthreads();
+      const double pivot = column[k];
+      const double inverse = pivot > 1e-12 ? 1 / pivot : 0;
+      double other[tiles];
+#pragma unroll
+      for (int c = 0; c < tiles; ++c) other[c] = column[lane + 32 * c];
+      Triangle::eachRow([&]<int R>() {
+        const int i = warp + warps * R;
+        const double scaled = column[i] * inverse;
+        own.template ofRow<R>([&](double& entry, int c) {
+          const bool across = lane + 32 * c == k;
+          entry = i == k ? (across ? -inverse : other[c] * inverse)
+                         : (across ? scaled : entry - scaled * other[c]);
+        });
+      });
+    }
+  });
+  Triangle::eachRow([&]<int R>() {
+    const int i = warp + warps * R;
+    own.template ofRow<R>([&](double& entry, int c) {
+      const int j = lane + 32 * c;
+      if (i < n && j <= i) a[std::ptrdiff_t(i) * n + j] = a[std::ptrdiff_t(j) * n + i] = -entry;
+    });
+  });
+}
 }  // namespace detail
 #endif
 /// The same by one block of a GPU, or on the host.
-template <int R>
-void invert(double* a, int n, double* row) {
+inline void invert(double* a, int n, double* row) {
 #if SINEW_CUDA
-  detail::invert_kernel<R><<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
+  constexpr int threads = 32 * detail::sweepingWarps, others = (56 - 7 - 20) * threads * int(sizeof(double));
+  if (n <= 64) {
+    detail::sweep_kernel<4><<<1, threads, 0, stream()>>>(a, n);
+  } else if (n <= 128) {
+    detail::sweep_kernel<8><<<1, threads, 0, stream()>>>(a, n);
+  } else if (n <= 208) {
+    auto* const kernel = detail::sweep_kernel<13>;
+    check(cudaFuncSetAttribute(kernel, cudaFuncAttributeMaxDynamicSharedMemorySize, others),
+          "a factor on the GPU");
+    kernel<<<1, threads, others, stream()>>>(a, n);
+  } else {
+    detail::invert_kernel<<<1, detail::invertingThreads, 0, stream()>>>(a, n, row);
+  }
   check(cudaGetLastError(), "a factor on the GPU");
 #else
   invert_in_place(

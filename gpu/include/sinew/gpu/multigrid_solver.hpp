@@ -17,6 +17,9 @@ struct MultigridSolver {
   std::vector<SystemBody<D>> bodies{};
   DeviceArray<unsigned char> held{};
   DeviceArray<double> numbers{};
+  std::vector<double> found{};  // what comes back of a solve that is one kernel
+  DeviceArray<typename D::Deriv> product{};
+  TeamMemory team{};
 
   MultigridSolver() = default;
   MultigridSolver(MultigridSolver&&) = default;

@@ -3,18 +3,20 @@
 
 #include <sinew/gpu/execution.hpp>
 
+#include <array>
 #include <cstddef>
 
 namespace sinew::gpu {
 
-/// Room for sums that are being made; one a thread of the host.
+/// Room for sums that are being made; one for each device of a thread of the host.
 struct SumBuffer {
   static constexpr unsigned blocks = 1056;  // at most; eight on each of 132 multiprocessors
   DeviceArray<double> parts{};              // one a block, and behind them the sum for the host
   DeviceArray<unsigned> counts{};           // blocks that are done; 0 between sums
 };
 inline SumBuffer& sum_buffer() {
-  static thread_local SumBuffer buffer;
+  static thread_local std::array<SumBuffer, most_devices> all{};
+  SumBuffer& buffer = all[std::size_t(current_device())];
   if (!buffer.parts.data()) {
     buffer.parts.resize(SumBuffer::blocks + 1);
     buffer.counts.resize(1);
@@ -35,6 +37,13 @@ SINEW_INLINE decltype(auto) of_thread(Term const& term) {
     return (term);
 }
 
+/// Where a sum goes: to one place, or as `put` has it.
+SINEW_INLINE void put_sum(double* to, double sum) { *to = sum; }
+template <class To>
+SINEW_INLINE void put_sum(To const& to, double sum) {
+  to.put(sum);
+}
+
 #if SINEW_CUDA
 /// The sum of one value a thread, in the same order whenever the block has the same size; valid in thread 0.
 __device__ inline double block_sum(double value) {
@@ -50,9 +59,9 @@ __device__ inline double block_sum(double value) {
 }
 
 /// The last block that is done adds up what all have found.
-template <class Term>
+template <class Term, class To>
 __global__ void __launch_bounds__(max_threads)
-    sum_kernel(unsigned count, Term term, double* parts, unsigned* done, double* to) {
+    sum_kernel(unsigned count, Term term, double* parts, unsigned* done, To to) {
   double sum = 0;
   auto const& ofThread = of_thread(term);
   for (unsigned i = blockIdx.x * blockDim.x + threadIdx.x; i < count; i += gridDim.x * blockDim.x)
@@ -71,7 +80,7 @@ __global__ void __launch_bounds__(max_threads)
   for (unsigned b = threadIdx.x; b < gridDim.x; b += blockDim.x) all += __ldcg(parts + b);
   all = block_sum(all);
   if (threadIdx.x == 0) {
-    *to = all;
+    put_sum(to, all);
     *done = 0;
   }
 }
@@ -80,10 +89,11 @@ __global__ void __launch_bounds__(max_threads)
 
 }  // namespace detail
 
-/// *to = the sum of term(i) for i = 0 .. count - 1; `to` is on the device, term(i) is called once for each i
-/// and may write. The order of the sum depends on `count` alone.
-template <class Term>
-void sum_indices(std::size_t count, Term const& term, double* to) {
+/// *to = the sum of term(i) for i = 0 .. count - 1; `to` is on the device, or an object whose put(sum) is
+/// called there; term(i) is called once for each i and may write. The order of the sum depends on `count`
+/// alone.
+template <class Term, class To>
+void sum_indices(std::size_t count, Term const& term, To to) {
 #if SINEW_CUDA
   SumBuffer& buffer = sum_buffer();
   const unsigned threads = threads_for(count), needed = unsigned((count + threads - 1) / threads);
@@ -95,7 +105,7 @@ void sum_indices(std::size_t count, Term const& term, double* to) {
   double sum = 0;
   auto const& ofThread = detail::of_thread(term);
   for (std::size_t i = 0; i < count; ++i) sum += ofThread(int(i));
-  *to = sum;
+  detail::put_sum(to, sum);
 #endif
 }
 /// The same, brought to the host, which waits for it.

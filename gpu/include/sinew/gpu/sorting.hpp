@@ -6,6 +6,7 @@
 #include <thrust/scan.h>
 #include <thrust/sort.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -42,8 +43,8 @@ class ScratchMemory {
   std::vector<Block> blocks_{};
 };
 inline ScratchMemory& scratch_memory() {
-  static thread_local ScratchMemory memory;
-  return memory;
+  static thread_local std::array<ScratchMemory, most_devices> all{};
+  return all[std::size_t(current_device())];
 }
 #endif
 

@@ -32,9 +32,14 @@ class WholeTeam {
     double value;
     long long round;
   };
-  /// Slots for so many blocks, behind the round of the last launch; 0 before the first.
-  static constexpr std::size_t slotsFor(std::size_t blocks) { return 1 + 2 * mostNumbers * blocks; }
-  __device__ WholeTeam(Slot* slots, int kept) : slots_(slots + 1), round_(slots->round), kept_(kept) {}
+  /// Slots for so many blocks, behind two with the round of the last launch, how often blocks had come to a
+  /// barrier by then, and how often they have; 0 before the first.
+  static constexpr std::size_t slotsFor(std::size_t blocks) { return 2 + 2 * mostNumbers * blocks; }
+  __device__ WholeTeam(Slot* slots, int kept)
+      : slots_(slots + 2),
+        round_(slots[0].round),
+        arrived_(static_cast<unsigned long long>(slots[1].round)),
+        kept_(kept) {}
 
   /// f(i) for i = 0 .. n - 1, always in the same thread for the same i. Warps of all blocks take turns, so
   /// that a short loop is spread over the GPU.
@@ -47,6 +52,19 @@ class WholeTeam {
   template <class F>
   __device__ void eachRow(int n, F&& f) const {
     for (int i = firstRow(); i < n; i += int(gridDim.x * blockDim.x) / lanes) f(i, lane());
+  }
+  /// f(i, lane, Lanes, joined) by the Lanes threads that share i, also for some i from n on, so that all of a
+  /// warp are there: joined(sum) makes of each of its numbers the sum over the lanes. Warps of all blocks
+  /// take turns.
+  template <int Lanes, class F>
+  __device__ void eachTeamOf(int n, F&& f) const {
+    const int lane = int(threadIdx.x) % 32, warp = int(threadIdx.x / 32 * gridDim.x + blockIdx.x);
+    constexpr int ofWarp = 32 / Lanes;
+    for (int first = warp * ofWarp; first < n; first += int(gridDim.x * blockDim.x) / Lanes)
+      f(first + lane / Lanes, lane % Lanes, Lanes, [](auto& sum) {
+        for (int offset = Lanes / 2; offset > 0; offset /= 2)
+          for (auto& s : sum) s += __shfl_xor_sync(0xffffffffu, s, offset);
+      });
   }
   __device__ int firstRow() const { return int(blockIdx.x * blockDim.x + threadIdx.x) / lanes; }
   __device__ int lane() const { return int(threadIdx.x) % lanes; }
@@ -72,8 +90,21 @@ class WholeTeam {
     double none[1] = {0};
     reduce<1>(none);
   }
-  /// The same; and each thread gets the sums of the first numbers of all, and the largest of the others,
-  /// which are not negative.
+  /// The same as sync(), sooner: the blocks count themselves in one place.
+  __device__ void barrier() {
+    __syncthreads();
+    if (threadIdx.x == 0) {
+      arrived_ += gridDim.x;
+      unsigned long long* const count = counter();
+      asm volatile("red.release.gpu.global.add.u64 [%0], 1;" ::"l"(count) : "memory");
+      unsigned long long there = 0;
+      while (there < arrived_)
+        asm volatile("ld.acquire.gpu.global.u64 %0, [%1];" : "=l"(there) : "l"(count) : "memory");
+    }
+    __syncthreads();
+  }
+  /// The same as sync(); and each thread gets the sums of the first numbers of all, and the largest of the
+  /// others, which are not negative.
   template <int Sums, int N>
   __device__ void reduce(double (&value)[N]) {
     static_assert(N <= mostNumbers && 32 * N <= leastThreads);
@@ -118,14 +149,20 @@ class WholeTeam {
   __device__ bool first() const { return blockIdx.x == 0 && threadIdx.x == 0; }
   /// Behind a sum at least: the next launch goes on with another round.
   __device__ void end() const {
-    if (first()) slots_[-1].round = round_;
+    if (!first()) return;
+    slots_[-2].round = round_;
+    slots_[-1].round = static_cast<long long>(arrived_);
   }
 
  private:
   Slot* slots_;
   long long round_;
+  unsigned long long arrived_;  // of the first thread of a block
   int kept_;
 
+  __device__ unsigned long long* counter() const {
+    return reinterpret_cast<unsigned long long*>(&slots_[-1].value);
+  }
   static __device__ void fence() { asm volatile("fence.acq_rel.gpu;" ::: "memory"); }
   static __device__ void look(Slot const* from, Slot& to) {
     asm volatile("ld.relaxed.gpu.global.v2.b64 {%0, %1}, [%2];"
@@ -194,6 +231,10 @@ class WholeTeam {
   void eachRow(int n, F&& f) const {
     for (int i = n - 1 - thread_; i >= 0; i -= threads_) f(i, 0);
   }
+  template <int, class F>
+  void eachTeamOf(int n, F&& f) const {
+    eachRow(n, [&](int i, int) { f(i, 0, 1, [](auto&) {}); });
+  }
   int firstRow() const { return -1; }  // keeps none
   int lane() const { return 0; }
   int kept() const { return 0; }
@@ -208,6 +249,7 @@ class WholeTeam {
   void sync() const {
     if (shared_) shared_->barrier.arrive_and_wait();
   }
+  void barrier() const { sync(); }
   template <int Sums, int N>
   void reduce(double (&value)[N]) {
     static_assert(N <= mostNumbers);
@@ -255,7 +297,7 @@ inline bool has_row_for_each([[maybe_unused]] std::size_t rows) {
 template <class Body>
 void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
 #if SINEW_CUDA
-  char const* const what = "a step with constraints on the GPU";
+  char const* const what = "a kernel over the whole GPU";
   int device = 0;
   check(cudaGetDevice(&device), what);
   // over the whole GPU, in warps
@@ -273,7 +315,9 @@ void run_whole_team(std::size_t rows, Body const& body, TeamMemory& memory) {
   constexpr std::size_t ofSums = 4096;
   const std::size_t entry = threads * Body::entryBytes;
   const std::size_t kept =  // in pairs
-      std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums) / entry) / 2 * 2;
+      entry == 0
+          ? 0
+          : std::min<std::size_t>(WholeTeam::mostKept, (std::size_t(sharedMost) - ofSums) / entry) / 2 * 2;
   const std::size_t shared = kept * entry;
   check(cudaFuncSetAttribute(
             detail::whole_kernel<Body>, cudaFuncAttributeMaxDynamicSharedMemorySize, int(shared)),

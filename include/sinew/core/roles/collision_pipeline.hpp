@@ -3,6 +3,7 @@
 
 #include <sinew/core/role.hpp>
 
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,15 @@ template <class C>
 concept HasModelPairs = requires(C c) {
   { c.surfaces } -> std::same_as<std::vector<CollisionSurface*>&>;
   { c.near } -> std::same_as<std::vector<std::pair<int, int>>&>;
+};
+
+/// Hook: it has the models of the scene that it lists, takes(surface), wherever these are, instead of those
+/// below its node; choose(where, surfaces) finds them at init. It stands in the root, or in a node right below
+/// that.
+template <class C>
+concept ListsModels = requires(C c, std::string const& where, CollisionSurface const& s) {
+  { c.takes(s) } -> std::convertible_to<bool>;
+  c.choose(where);
 };
 
 template <class C>

@@ -81,6 +81,14 @@ concept AddsToMatrix =
 template <class C>
 concept Load = requires { requires C::isLoad; };
 
+/// The stresses of its elements [Pa] where points are at x, in the axes of the world, from the rest positions
+/// in a context: addStress(context, x, stress) adds them, in the order of the elements of the topology.
+template <class C>
+concept GivesStress =
+    HasDataTypes<C> &&
+    requires(C const c, InitContext<typename C::DataTypes> const at, typename C::DataTypes::VecCoord const x,
+             std::vector<Eigen::Matrix3d> stress) { c.addStress(at, x, stress); };
+
 /// What a force field claims of itself (as `properties()`), and the law suite proves. The defaults are those
 /// of an elastic force between points of one body; a field that says nothing claims them all.
 struct ForceProperties {

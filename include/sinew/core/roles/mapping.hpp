@@ -4,6 +4,8 @@
 #include <sinew/core/role.hpp>
 #include <sinew/core/roles/force_field.hpp>
 
+#include <cstddef>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -60,20 +62,47 @@ template <class C>
 concept Mapping = HasRole<C, role::Mapping> && HasInAndOut<C> && HasInitOfChild<C> && Applies<C, C> &&
                   AppliesJ<C, C> && AppliesJT<C, C>;
 
-/// A mapping with several parents, named by paths. It has a part for each, a mapping from that parent alone
-/// to those points of the child that follow it.
+/// A mapping with several parents, named by paths. part(k) is a mapping from parent k alone, to those points of
+/// the child that follow it. Parts are applied in the order of the parents, all of them before applyJ of the
+/// first: where a point follows several parents, the part of the first writes to it and the others go on
+/// with what they find, and those of applyJT may do their work in any order.
 template <class C>
 concept HasParents = HasRole<C, role::Mapping> && requires { typename C::Parents; };
-/// As many parts as parents.
+/// Its parents are two, and the second has the DataTypes `In2`. Numbers of parents are types then.
 template <class C>
-concept HasInitOfParents =
+concept HasTwoKindsOfParents = HasParents<C> && requires { typename C::In2; };
+template <std::size_t K>
+using ParentNumber = std::integral_constant<std::size_t, K>;
+namespace detail {
+template <class C, class K>
+struct KindOfParent {
+  using type = typename C::In;
+};
+template <HasTwoKindsOfParents C>
+struct KindOfParent<C, ParentNumber<1>> {
+  using type = typename C::In2;
+};
+template <class C>
+concept HasInitOfMany =
     HasInAndOut<C> && requires(C c, std::vector<InitContext<typename C::In>> const parents,
                                InitContext<typename C::Out> const child,
                                typename C::Out::VecCoord positions) { c.init(parents, child, positions); };
 template <class C>
-concept HasParts = requires(C c) { c.parts[0]; };
+concept HasInitOfTwo =
+    HasInAndOut<C> &&
+    requires(C c, InitContext<typename C::In> const first, InitContext<typename C::In2> const second,
+             InitContext<typename C::Out> const child,
+             typename C::Out::VecCoord positions) { c.init(first, second, child, positions); };
+}  // namespace detail
+/// The DataTypes of the parent with a number of type K.
+template <class C, class K>
+using InOfParent = typename detail::KindOfParent<C, K>::type;
 template <class C>
-using PartOf = std::decay_t<decltype(std::declval<C&>().parts[0])>;
+concept HasInitOfParents = detail::HasInitOfMany<C> || detail::HasInitOfTwo<C>;
+template <class C>
+concept HasParts = requires(C c) { c.part(ParentNumber<0>{}); };
+template <class C>
+using PartOf = std::decay_t<decltype(std::declval<C&>().part(ParentNumber<0>{}))>;
 template <class C>
 concept MultiMapping = HasParents<C> && HasInAndOut<C> && HasInitOfParents<C> && HasParts<C> &&
                        Applies<PartOf<C>, C> && AppliesJ<PartOf<C>, C> && AppliesJT<PartOf<C>, C>;
@@ -89,17 +118,33 @@ concept HasGeometricStiffness =
       m.updateK(vo);
       m.addKx(vi, vi, 1.0);  // df += k K_g dx
     };
+/// The same of a part, where points follow several parents, so that K_g has a block for each pair of them: all
+/// parts are given their dx by gather(dx) before addKx of the first, and the mapping, which has
+/// addToMatrix(params, a, b, sink), adds the rows of parent a and the columns of parent b by
+/// sink.add<0, 1>(i, j, block).
+template <class PartMapping>
+concept GathersParents =
+    HasGeometricStiffness<PartMapping> &&
+    requires(PartMapping m, typename PartMapping::In::VecDeriv const dx) { m.gather(dx); };
 /// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
 /// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
 /// says which stay when elements are removed.
 template <class C>
 inline constexpr bool over_parent = requires { C::overParent; };
+/// A mapping for which they are over entries of a list of its own, which name points of its parents.
+template <class C>
+inline constexpr bool over_entries = requires { C::overEntries; };
 /// A mapping that makes the faces of its visual model, too, whose points have no fixed number: faces() are
 /// those of the last apply. A state cannot follow it.
 template <class C>
 concept MakesFaces = requires(C const c) {
   { c.faces() } -> std::same_as<std::vector<Quad> const&>;
 };
+/// A mapping by which each point of the child goes with an element of the parent (`carriesPoints`), found
+/// from where it is given, or where it rests (`useRestPosition`): where the parent is cut, a surface of such
+/// points is cut with it, by the same blade.
+template <class C>
+inline constexpr bool carries_points = requires { C::carriesPoints; } && !C::Out::rigid;
 /// f(point of the parent, block of J) for each block in the rows of a point: what solvers need that assemble
 /// a matrix.
 template <class PartMapping>
@@ -149,9 +194,12 @@ struct Promise<role::Mapping> : NoPromise {
     static_assert(
         !HasInAndOut<C> || !HasParents<C> || HasInitOfParents<C>,
         "Sinew: a mapping with several parents has no 'void init(std::vector<InitContext<In>> const& "
-        "parents, InitContext<Out> const& child, Out::VecCoord& positions)'.");
+        "parents, InitContext<Out> const& child, Out::VecCoord& positions)', or, where it has In2, 'void "
+        "init(InitContext<In> const& first, InitContext<In2> const& second, InitContext<Out> const& child, "
+        "Out::VecCoord& positions)'.");
     static_assert(!HasParents<C> || HasParts<C>,
-                  "Sinew: a mapping with several parents has no 'parts', a list of mappings, one for each.");
+                  "Sinew: a mapping with several parents has no 'part(std::size_t k)', the mapping from "
+                  "parent k alone.");
     static_assert(
         !maps || Applies<PartMapping, C>,
         "Sinew: a mapping has no 'void apply(Out::VecCoord& out, In::VecCoord const& in)', which makes "

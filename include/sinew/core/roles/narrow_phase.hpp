@@ -30,6 +30,15 @@ concept HasPrimitivesNear = requires(C c, CollisionSurface const& a, CollisionSu
 template <class C>
 concept FindsPrimitivesNear = HasRole<C, role::NarrowPhase> && HasPrimitivesNear<C>;
 
+// Hook, beside that of an intersection method which is shown all models (LooksAround):
+
+/// It finds all contacts of some pairs of models itself, without an intersection method: of those that it
+/// meets(a, b), by contacts(a, b, limit, f), which calls f(contact).
+template <class C>
+concept MeetsModels = requires(C c, CollisionSurface const& s) {
+  { c.meets(s, s) } -> std::convertible_to<bool>;
+};
+
 template <>
 struct Promise<role::NarrowPhase> : NoPromise {
   template <class C>

@@ -72,9 +72,25 @@ concept FindsChanges = requires(C c, TopologyView const topology, TopologicalOrd
   c.changeMade();
 };
 
+/// One that tears elements by their stresses: looks(topology) says before a step whether it does, and makes
+/// `stress`, zero for each tetrahedron, or each triangle where there are none; force fields add theirs
+/// (GivesStress). overloaded() then says whether an element tears; tear(topology, positions, held) where, if
+/// it does, as a BladeStroke, where `held` are points that constraints hold. changeMade(changes) says what
+/// came of it.
 template <class C>
-concept ChangesTopology =
-    HasRole<C, role::TopologicalChange> && PreparesRemoval<C> && (FindsRemovedElements<C> || FindsChanges<C>);
+concept TearsElements = requires(C c, TopologyView const topology, std::vector<Eigen::Vector3d> const x,
+                                 std::vector<bool> const held) {
+  typename C::DataTypes;
+  { c.looks(topology) } -> std::same_as<bool>;
+  { c.stress } -> std::same_as<std::vector<Eigen::Matrix3d>&>;
+  { c.overloaded() } -> std::same_as<bool>;
+  c.tear(topology, x, held);
+  c.changeMade(true);
+};
+
+template <class C>
+concept ChangesTopology = HasRole<C, role::TopologicalChange> && PreparesRemoval<C> &&
+                          (FindsRemovedElements<C> || FindsChanges<C> || TearsElements<C>);
 
 // Hooks, what it may have beside these:
 
@@ -100,7 +116,8 @@ struct Promise<role::TopologicalChange> : NoPromise {
   static constexpr bool kept = ChangesTopology<C>;
   template <class C>
   struct Broken {
-    static constexpr bool prepares = PreparesRemoval<C>, finds = FindsRemovedElements<C> || FindsChanges<C>;
+    static constexpr bool prepares = PreparesRemoval<C>,
+                          finds = FindsRemovedElements<C> || FindsChanges<C> || TearsElements<C>;
     static_assert(prepares,
                   "Sinew: a component with role::TopologicalChange has no 'void prepare(std::string const& "
                   "where, TopologyView const& topology)', which checks it.");
@@ -108,7 +125,8 @@ struct Promise<role::TopologicalChange> : NoPromise {
         finds,
         "Sinew: a component with role::TopologicalChange has no 'bool findRemoved(TopologyView const& "
         "topology, double time, ElementNumbers& elements)', which lists what goes, or no 'void "
-        "elementsRemoved()', which is told that it has gone; nor findChange and changeMade.");
+        "elementsRemoved()', which is told that it has gone; nor findChange and changeMade; nor what tears "
+        "elements (TearsElements).");
   };
 };
 

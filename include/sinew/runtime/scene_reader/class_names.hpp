@@ -14,15 +14,15 @@ namespace detail {
 /// What an element of a scene file is.
 enum class ElementKind {
   node,
-  newton,            // settings of an ODE solver,
-  preconditioner,    // of a linear one,
-  density,           // and of a mass
-  boxConstraint,     // stands for two components
-  implicitWithCG,    // the same
-  forceAndMass,      // the same
-  component,         // of a class that the registry has, or should have
-  tetrahedronModel,  // is left out, as is all that follows
-  withoutMeaning,
+  newton,             // settings of an ODE solver,
+  preconditioner,     // of a linear one,
+  density,            // and of a mass
+  boxConstraint,      // stands for two components
+  implicitWithCG,     // the same
+  forceAndMass,       // the same
+  compositePipeline,  // lists collision pipelines
+  component,          // of a class that the registry has, or should have
+  withoutMeaning,     // is left out, as is all that follows
   inert,
   notYet,
   unknown
@@ -41,6 +41,8 @@ struct SceneClassNames {
     if (dialect::preconditioner_named(tag)) return ElementKind::preconditioner;
     if (dialect::has(dialect::implicitWithCG, tag)) return ElementKind::implicitWithCG;
     if (dialect::force_and_mass(tag)) return ElementKind::forceAndMass;
+    if (tag == "CompositeCollisionPipeline" && named("SubCollisionPipeline"))
+      return ElementKind::compositePipeline;
     if (named(tag) || dialect::is_over_elements(tag)) return ElementKind::component;
     for (auto const& other : dialect::standsFor)
       if (other.name == tag) return ElementKind::component;
@@ -48,7 +50,6 @@ struct SceneClassNames {
   }
   /// Of a tag that is no class of the registry, and stands for none.
   static ElementKind withoutClass(std::string_view tag) {
-    if (has_name(dialect::tetrahedronModels, tag)) return ElementKind::tetrahedronModel;
     if (dialect::class_without_meaning(tag)) return ElementKind::withoutMeaning;
     if (dialect::left_out(dialect::inert, tag)) return ElementKind::inert;
     return dialect::left_out(dialect::notYet, tag) ? ElementKind::notYet : ElementKind::unknown;

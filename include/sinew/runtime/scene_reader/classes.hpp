@@ -93,9 +93,11 @@ class SceneClasses {
     switch (first.role) {
       case RoleKind::mapping: {
         ScenePlace const* parent = item.place->parent ? item.place->parent->owner() : nullptr;
+        std::vector<ScenePlace const*> parents;
         if (first.severalParents) {
-          parent = firstOfParents(item);
-          if (!parent) return nullptr;
+          parents = parentsOf(item);
+          if (parents.empty()) return nullptr;
+          parent = parents[0];
         }
         if (!parent)
           return messages_.addError(
@@ -112,6 +114,22 @@ class SceneClasses {
                      "has no child: its node has neither a MechanicalObject nor an OglModel; add one"),
                  nullptr;
         const std::string out = item.place->state.empty() ? "Vec3f" : item.place->state;
+        if (!first.in2.empty() && parents.size() == 2)
+          return withTypes(item,
+                           text(parent->state, ',', parents[1]->state, ',', out),
+                           text(", from the states of '",
+                                parent->name,
+                                "' and '",
+                                parents[1]->name,
+                                "' to that of '",
+                                item.place->name,
+                                "'"));
+        if (!first.in2.empty())
+          return messages_.addError(*item.element,
+                                    text("follows two parents, and names ",
+                                         parents.size(),
+                                         "; name both: input1=\"@../points\" input2=\"@../frame\"")),
+                 nullptr;
         return withTypes(
             item,
             text(parent->state, ',', out),
@@ -170,6 +188,7 @@ class SceneClasses {
                                          acted->state,
                                          "; give both the same")),
                  nullptr;
+        if (!first.traits.followsObject2.empty() && !followsObject2(item, *acted)) return nullptr;
         return withTypes(item, acted->state, text(", as the state it acts on, in '", acted->name, "'"));
       }
       case RoleKind::engine:
@@ -190,26 +209,27 @@ class SceneClasses {
     });
     return known ? host : text(std::string_view(host).substr(0, host.size() - 1), 'd');
   }
-  // the node of the first of the parents that `input` names: "@left @../right/corner"
-  ScenePlace const* firstOfParents(SceneItem& item) {
-    auto const* input = item.element->attribute("input");
-    if (!input || !is_link(input->value))
-      return messages_.addError(*item.element, "names no parents; name them: input=\"@../left @../right\""),
-             nullptr;
-    ScenePlace const* firstParent = nullptr;
-    XmlAttribute one = *input;
-    std::string_view rest = input->value;
-    for (std::size_t at = rest.find('@'); at != rest.npos;) {
-      const std::size_t next = rest.find('@', at + 1);
-      one.value = std::string(rest.substr(at, next == rest.npos ? next : next - at));
-      at = next;
-      one.value.erase(one.value.find_last_not_of(" \t\r\n") + 1);
-      ScenePlace const* const parent = follow_to_node(item, one, messages_);
-      if (!parent) return nullptr;
-      if (!firstParent) firstParent = parent;
-      item.parents.push_back(from_top(*parent));
+  // the nodes of the parents that `input` names, or input1 and input2: "@left @../right/corner"
+  std::vector<ScenePlace const*> parentsOf(SceneItem& item) {
+    std::vector<ScenePlace const*> parents;
+    for (std::string_view const name : {"input", "input1", "input2"}) {
+      auto const* const input = item.element->attribute(name);
+      if (!input || !is_link(input->value)) continue;
+      XmlAttribute one = *input;
+      std::string_view const rest = input->value;
+      for (std::size_t at = rest.find('@'); at != rest.npos;) {
+        const std::size_t next = rest.find('@', at + 1);
+        one.value = std::string(rest.substr(at, next == rest.npos ? next : next - at));
+        at = next;
+        one.value.erase(one.value.find_last_not_of(" \t\r\n") + 1);
+        parents.push_back(follow_to_node(item, one, messages_));
+        if (!parents.back()) return {};
+        item.parents.push_back(from_top(*parents.back()));
+      }
     }
-    return firstParent;
+    if (parents.empty())
+      messages_.addError(*item.element, "names no parents; name them: input=\"@../left @../right\"");
+    return parents;
   }
   static bool allStatesAre(ScenePlace const& place, std::string_view kind) {
     return (place.state.empty() || place.state.starts_with(kind) || place.ofRole(RoleKind::mapping)) &&
@@ -222,6 +242,23 @@ class SceneClasses {
     return a.substr(0, a.size() - 1) == b.substr(0, b.size() - 1);
   }
 
+  // a force on the state of its node, which object1 may name, follows the state that object2 names
+  bool followsObject2(SceneItem& item, ScenePlace const& acted) {
+    auto const *a = item.element->attribute("object1"), *b = item.element->attribute("object2");
+    if (a && follow_to_node(item, *a, messages_) != &acted)
+      return messages_.addError(item.element->place(*a),
+                                text('<',
+                                     item.tag,
+                                     ">: object1 leads to another state than that of its node, '",
+                                     acted.name,
+                                     "', on which it acts; put it into the node of object1")),
+             false;
+    if (!b) return true;
+    ScenePlace const* const followed = follow_to_node(item, *b, messages_);
+    SceneItem const* const state = followed ? followed->ofRole(RoleKind::state) : nullptr;
+    if (state) item.element->set(item.candidates[0]->traits.followsObject2, link_to(*state) + ".position");
+    return state != nullptr;
+  }
   // an interaction joins two bodies, unless both its ends are the state of its own node
   bool endsDiffer(SceneItem& item) {
     auto const *a = item.element->attribute("object1"), *b = item.element->attribute("object2");

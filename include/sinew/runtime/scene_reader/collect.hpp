@@ -4,6 +4,7 @@
 #include <sinew/runtime/scene_reader/composed_elements.hpp>
 #include <sinew/runtime/scene_reader/element_settings.hpp>
 #include <sinew/runtime/scene_reader/split_visuals.hpp>
+#include <sinew/runtime/scene_reader/sub_pipelines.hpp>
 
 #include <map>
 #include <memory>
@@ -17,20 +18,21 @@ namespace detail {
 class SceneCollector {
  public:
   SceneCollector(SceneItems& items, SceneMessages& messages)
-      : items_(items), messages_(messages), composed_(items, messages) {}
+      : items_(items), messages_(messages), composed_(items, messages), pipelines_(items, messages) {}
 
   /// All in and below a node.
   void collectAll(ScenePlace& top) {
     collect(top);
+    pipelines_.giveNodes(top);
     ElementSettings(messages_).giveAll(top);
     split_visuals(top, items_);
-    items_.reportTetrahedra(top);
   }
 
  private:
   SceneItems& items_;
   SceneMessages& messages_;
   ComposedElements composed_;
+  SubPipelines pipelines_;
 
   void collect(ScenePlace& place) {
     std::map<std::string, int> names;
@@ -59,6 +61,9 @@ class SceneCollector {
           break;
         case ElementKind::forceAndMass:
           composed_.forceAndMass(place, child, *dialect::force_and_mass(tag_of(child)));
+          break;
+        case ElementKind::compositePipeline:
+          pipelines_.addComposite(place, child);
           break;
         default:
           if (auto item = items_.makeItem(place, child)) {

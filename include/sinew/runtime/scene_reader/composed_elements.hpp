@@ -68,22 +68,47 @@ class ComposedElements {
     items_.addItem(place, constant);
   }
 
-  /// <HexahedronFEMForceFieldAndMass density="3" .../> stands for a force and a MeshMatrixMass of the same
-  /// elements.
+  /// <HexahedronFEMForceFieldAndMass density="3" .../> stands for a force and a mass of the same elements;
+  /// with useMass="0", for a UniformMass of the totalMass.
   void forceAndMass(ScenePlace& place, XmlElement& element, dialect::ForceAndMass const& both) {
     items_.hasNoChildren(element);
+    const bool composite = !both.interpolation.empty();
+    const bool uniform = composite && isOff(element, "useMass");
     XmlElement& force = items_.partOf(element, both.force);
-    XmlElement& mass = items_.partOf(element, "MeshMatrixMass");
+    XmlElement& mass = items_.partOf(element, uniform ? "UniformMass" : both.mass);
+    if (composite && isOff(element, "useRamification"))
+      messages_.addError(
+          element,
+          "useRamification is not simulated: only its default '1' is; take a SparseGridTopology "
+          "for cells that are not split");
     for (XmlAttribute a : element.attributes) {
-      if (a.name == "type") continue;
-      const bool ofMass = a.name == "density" || a.name == "lumpedMass";
-      if (a.name == "density") a.name = "massDensity";
-      if (a.name == "lumpedMass") a.name = "lumping";
-      (ofMass ? mass : force).attributes.push_back(a);
-      if (a.name == "template") mass.attributes.push_back(a);
+      // what SOFA has, and does not use
+      if (a.name == "type" ||
+          (composite && has_name("useMass useRamification homogenizationMethod massMatrices", a.name)))
+        continue;
+      const bool ofMass =
+          has_name("density lumpedMass totalMass", a.name) && (composite || a.name != "totalMass");
+      const bool ofBoth =
+          a.name == "template" ||
+          (composite && !uniform && has_name("nbVirtualFinerLevels poissonRatio finestToCoarse", a.name));
+      if (!ofMass) force.attributes.push_back(a);
+      if (uniform ? a.name == "totalMass" : ofMass && !(composite && a.name == "totalMass")) {
+        if (a.name == "density") a.name = "massDensity";
+        if (a.name == "lumpedMass") a.name = "lumping";
+        mass.attributes.push_back(a);
+      } else if (ofBoth) {
+        mass.attributes.push_back(a);
+      }
     }
-    mass.set("massDensity", "1", false);
-    mass.set("elements", "hexahedra");
+    if (uniform && !mass.attribute("totalMass"))
+      messages_.addError(element, "useMass is off, and there is no totalMass; give it the mass of the body");
+    if (!uniform) mass.set("massDensity", "1", false);
+    for (XmlElement* part : {&force, &mass}) {
+      if (!composite || part->tag == "UniformMass") continue;
+      part->set("nbVirtualFinerLevels", "0", false);
+      part->set("interpolation", std::string(both.interpolation));
+    }
+    if (!composite) mass.set("elements", "hexahedra");
     if (both.fillWeighted) mass.set("fillWeighted", "1");
     mass.set("name", name_of(element, element.tag) + "_mass");
     items_.addItem(place, force);
@@ -123,6 +148,11 @@ class ComposedElements {
  private:
   SceneItems& items_;
   SceneMessages& messages_;
+
+  static bool isOff(XmlElement const& element, std::string_view attribute) {
+    auto const* given = element.attribute(attribute);
+    return given && (given->value == "0" || given->value == "false");
+  }
 };
 
 }  // namespace detail

@@ -21,6 +21,8 @@ class ElementSettings {
     warnOfLooseNewton(top);
     setPreconditioners(top);
     setDensities(top);
+    setComposites(top);
+    forgetInterpolation(top);
   }
 
  private:
@@ -107,6 +109,40 @@ class ElementSettings {
       item->element->set("massDensity", density);
     }
     for (auto& child : place.children) setDensities(*child);
+  }
+
+  // HexahedronCompositeFEMMapping shows the cells of the force of its parent: what it does not say is as
+  // there
+  void setComposites(ScenePlace& place) {
+    for (auto& item : place.items) {
+      if (item->candidates[0]->name != dialect::compositeMapping) continue;
+      XmlElement const* force = nullptr;
+      for (ScenePlace* at = place.parent; at && !force; at = at->parent)
+        for (auto const& other : at->items)
+          if (other->candidates[0]->name == dialect::compositeForce) force = other->element;
+      for (std::size_t i = 0; force && i < force->attributes.size(); ++i) {
+        XmlAttribute a = force->attributes[i];
+        if (item->element->attribute(a.name) ||
+            !has_name("nbVirtualFinerLevels poissonRatio interpolation finestToCoarse method "
+                      "completeInterpolation",
+                      a.name))
+          continue;
+        if (is_link(a.value))
+          messages_.addError(*item->element,
+                             text(a.name, " of the force above is a link; give it here, too"));
+        if (!a.file) a.file = force->file;
+        item->element->take(a, true);
+      }
+    }
+    for (auto& child : place.children) setComposites(*child);
+  }
+  // SOFA's forces say it, and it is of their mappings
+  static void forgetInterpolation(ScenePlace& place) {
+    for (auto& item : place.items)
+      if (item->candidates[0]->name == dialect::compositeForce)
+        std::erase_if(item->element->attributes,
+                      [](XmlAttribute const& a) { return a.name == "completeInterpolation"; });
+    for (auto& child : place.children) forgetInterpolation(*child);
   }
 
   // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.

@@ -29,10 +29,24 @@ inline bool chooses_loaded(FieldInfo const& field) {
       std::to_array<std::string_view>({"triangleList", "quadList", "edgeIndices"});
   return dialect::has(lists, field.name);
 }
+/// The attribute by which the nearest topology of a component has SOFA make faces of its volumes; null for
+/// none. They are not made here.
+inline XmlAttribute const* makes_faces(SceneItem const& item) {
+  for (ScenePlace const* place = item.place; place; place = place->parent)
+    if (SceneItem const* const topology = place->ofRole(RoleKind::topology)) {
+      for (std::string_view name : {"createTriangleArray", "createQuadArray"})
+        if (auto const* a = topology->element->attribute(name);
+            a && !a->value.empty() && a->value != "0" && a->value != "false")
+          return a;
+      return nullptr;
+    }
+  return nullptr;
+}
 /// No element bears the load.
 inline void press_none(SceneItem& item, XmlAttribute const& a, std::string_view why,
                        SceneMessages& messages) {
   if (auto const* none = item.info->field("none")) none->read(item.address, "1");
+  XmlAttribute const* const faces = makes_faces(item);
   messages.warnings.insert(text(item.element->place(a),
                                 ": <",
                                 item.tag,
@@ -40,7 +54,23 @@ inline void press_none(SceneItem& item, XmlAttribute const& a, std::string_view 
                                 a.name,
                                 ": ",
                                 why,
-                                "; no element bears the load by its number, as in SOFA"));
+                                "; no element bears the load by its number, ",
+                                faces ? text("while in SOFA those may that ",
+                                             faces->name,
+                                             " makes, and which are not made here; give the topology its "
+                                             "triangles or quads, as a topological mapping makes them")
+                                      : std::string("as in SOFA")));
+}
+
+/// What a value is whose link leads nowhere, where it is as without the attribute; empty where that is a
+/// mistake.
+inline std::string_view without_link(SceneItem const& item, FieldInfo const& field) {
+  if (item.info->role == RoleKind::engine && field.name == "position" && !item.info->dataTypes.empty())
+    return "the points of its node are taken, where SOFA's would choose none";
+  if (item.info->role == RoleKind::state && field.name == "rest_position" &&
+      item.place->ofRole(RoleKind::mapping))
+    return "its points are at rest where the mapping has them then";
+  return "";
 }
 
 /// The BoxROI over points that move of which a list of elements to remove is; null for another list.
@@ -62,8 +92,14 @@ inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute c
   try {
     target = follow_link(item, a.value);
   } catch (Error const& error) {
-    if (!chooses_loaded(field)) throw;
-    press_none(item, a, error.what(), messages);
+    const std::string_view otherwise = without_link(item, field);
+    if (chooses_loaded(field))
+      press_none(item, a, error.what(), messages);
+    else if (otherwise.empty())
+      throw;
+    else
+      messages.warnings.insert(
+          text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", otherwise, ": ", error.what()));
     return false;
   }
   if (field.name == "external_rest_shape") {

@@ -129,11 +129,14 @@ class ImpliedValues {
     }
   }
 
-  /// A state that is given no points takes, at init, those of the topology of its node; here it takes those
-  /// of another where that has none. One of its own without any topology has one point, at the origin, and
-  /// none beside what makes points while the scene runs.
+  /// A state that is given no points starts at rest, where it is told how; else it takes, at init, those of
+  /// the topology of its node; here it takes those of another where that has none. One of its own without any
+  /// topology has one point, at the origin, and none beside what makes points while the scene runs.
   void statePoints(SceneItem& item, std::set<std::string_view> const& given) {
     if (given.count("position")) return movedPoints(item);
+    if (given.count("rest_position") && !item.failed)
+      if (const std::string rest = item.info->field("rest_position")->write(item.address); !rest.empty())
+        return item.info->field("position")->read(item.address, rest);
     SceneItem const* const used = item.place->ofRole(RoleKind::topology);
     if (SceneItem* topology = values_.withPoints(*item.place)) {
       if (topology != used) values_.takeFrom(item, "position", *topology, "position");
@@ -141,6 +144,12 @@ class ImpliedValues {
       values_.component(item).template visit<role::State>(
           [&](auto& state) { state.position.push_back(std::decay_t<decltype(state)>::DataTypes::zero()); });
     }
+  }
+
+  /// Whether the points of a node are those of the state above it.
+  static bool isIdentity(ScenePlace const& place) {
+    SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
+    return mapping && mapping->info->traits.samePoints;
   }
 
   static bool pointsChange(ScenePlace const& place) {
@@ -290,10 +299,6 @@ class ImpliedValues {
       }
     }
     return false;
-  }
-  static bool isIdentity(ScenePlace const& place) {
-    SceneItem const* const mapping = place.ofRole(RoleKind::mapping);
-    return mapping && mapping->info->traits.samePoints;
   }
 };
 

@@ -90,39 +90,15 @@ class SceneItems {
           text("stands inside <", component.tag, ">, but a component has attributes only; move it out"));
   }
 
-  /// Tetrahedra collide with the points that DiscreteIntersection tests against them, and with nothing
-  /// otherwise.
-  void reportTetrahedra(ScenePlace const& top) {
-    if (tetrahedra_.empty()) return;
-    const bool collide = isThere(top, "DiscreteIntersection") && isThere(top, "PointCollisionModel");
-    for (XmlElement const* element : tetrahedra_)
-      if (collide && !lenient_)
-        messages_.addError(*element,
-                           "collides with points in SOFA, and with nothing here; take triangles, lines, "
-                           "points, spheres or convex hulls");
-      else
-        messages_.warnings.insert(
-            text(element->place(),
-                 ": <",
-                 tag_of(*element),
-                 "> collides with nothing",
-                 collide ? " here"
-                         : ", as in SOFA, where only DiscreteIntersection tests tetrahedra, against points",
-                 "; it is left out"));
-  }
-
  private:
   SceneClassNames names_;
   bool lenient_;
   SceneMessages& messages_;
   std::vector<std::unique_ptr<XmlElement>> made_{};
-  std::vector<XmlElement const*> tetrahedra_{};  // collision models
 
   // what is no component, and is said so
   void leaveOut(XmlElement& element, std::string const& tag) {
     switch (SceneClassNames::withoutClass(tag)) {
-      case ElementKind::tetrahedronModel:
-        return tetrahedra_.push_back(&element);
       case ElementKind::withoutMeaning:
         if (!dialect::has(dialect::ofViews, tag)) messages_.ignored.insert(tag);
         return;
@@ -153,14 +129,6 @@ class SceneItems {
                     c.debian,
                     ") and build Sinew anew");
     return otherwise;
-  }
-  static bool isThere(ScenePlace const& place, std::string_view className) {
-    return std::any_of(place.items.begin(),
-                       place.items.end(),
-                       [&](auto const& item) { return item->candidates[0]->name == className; }) ||
-           std::any_of(place.children.begin(), place.children.end(), [&](auto const& child) {
-             return isThere(*child, className);
-           });
   }
 
   // the class for a kind of elements, told what sets it apart; none where there is no such class, which is

@@ -5,6 +5,7 @@
 #include <sinew/runtime/dialect_attributes.hpp>
 #include <sinew/runtime/scene_reader/links.hpp>
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,14 @@ class OtherAttributes {
     if (dialect::without_effect(item.info->name, a.name)) return;
     if (auto const* known = dialect::not_simulated(item.info->name, a.name))
       return notSimulated(item, a, *known);
+    if (a.name.starts_with('_'))  // how scenes switch an attribute off
+      return void(messages_.warnings.insert(
+          text(item.element->place(a),
+               ": <",
+               item.tag,
+               ">: ",
+               a.name,
+               " has no effect, as in SOFA, where nothing is called so; remove it, or its underscore")));
     std::vector<std::string_view> names;
     for (auto const& f : item.info->fields)
       if (f.isInput) {
@@ -105,14 +114,63 @@ class OtherAttributes {
     return nullptr;
   }
 
+  // Whether there are forces, masses or constraints (`map`: mapForces, mapMasses, mapConstraints) on the
+  // mapped state of a node, or on what follows it.
+  static bool bringsBack(ScenePlace const& mapped, std::string_view map) {
+    ScenePlace const* top = &mapped;
+    while (top->parent) top = top->parent;
+    const std::string path = from_top(mapped);
+    return anyBelow(*top, [&](SceneItem const& item) {
+      if (!item.info) return false;
+      auto leadsHere = [&](std::string const& end) {
+        return end == path || std::string_view(end).starts_with(text(path, '/'));
+      };
+      const bool here =
+          mapped.above(*item.place) || std::any_of(item.ends.begin(), item.ends.end(), leadsHere);
+      switch (item.info->role) {
+        case RoleKind::mapping:
+          return std::any_of(item.parents.begin(), item.parents.end(), leadsHere);
+        case RoleKind::forceField:
+        case RoleKind::interactionForceField:
+          return here && map == "mapForces";
+        case RoleKind::mass:  // which has a weight
+          return here && map != "mapConstraints";
+        case RoleKind::lagrangianConstraint:
+          return here && map == "mapConstraints";
+        case RoleKind::collisionModel:
+          return here && (item.element->attribute("contactResponse") ||
+                          (map == "mapConstraints" ? contactsAre(*top, true)
+                                                   : map == "mapForces" && contactsAre(*top, false)));
+        default:
+          return false;
+      }
+    });
+  }
+  // contacts of a scene are constraints by multipliers, or penalty forces
+  static bool contactsAre(ScenePlace const& top, bool constraints) {
+    return anyBelow(top, [&](SceneItem const& item) {
+      if (!item.info || item.info->role != RoleKind::contactManager) return false;
+      auto const* response = item.element->attribute("response");
+      return constraints == (response && response->value.find("Constraint") != std::string::npos);
+    });
+  }
+  template <class F>
+  static bool anyBelow(ScenePlace const& place, F const& f) {
+    return std::any_of(place.items.begin(), place.items.end(), [&](auto const& item) { return f(*item); }) ||
+           std::any_of(place.children.begin(), place.children.end(), [&](auto const& child) {
+             return anyBelow(*child, f);
+           });
+  }
+
   bool lenient_;
   SceneMessages& messages_;
 
   // what would make another scene of this one
   void notSimulated(SceneItem& item, XmlAttribute const& a, dialect::NotSimulated const& known) {
     if (dialect::is_standard(known, a.value)) return;
-    // a picture has neither forces nor masses
-    if (a.name.starts_with("map") && item.info->role == RoleKind::mapping && item.place->state.empty())
+    // what a mapping does not bring back makes no difference where there is none of it
+    if (a.name.starts_with("map") && item.info->role == RoleKind::mapping &&
+        (item.place->state.empty() || !bringsBack(*item.place, a.name)))
       return;
     for (auto const& other : dialect::anotherLaw)
       if (other.className == item.info->name && other.attribute == a.name)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/engine/transform_engine.hpp>
+#include <sinew/runtime/scene_reader/elements_of_points.hpp>
 #include <sinew/runtime/scene_reader/field_links.hpp>
 #include <sinew/runtime/scene_reader/implied_values.hpp>
 #include <sinew/runtime/scene_reader/loader_of_file.hpp>
@@ -58,6 +59,14 @@ class SceneValues {
     spell_out(item);
     if (item.failed) return void(item.progress = SceneItem::Progress::done);
     if (SceneItem* loader = add_loader(item, items_, messages_)) values_.make(*loader);
+    messages_.locate(item, [&] {
+      SceneItem* const above = topology_above(item);
+      if (!above || !hasPointsOf(*item.place, *above)) return;
+      if (SceneItem* topology = add_topology(item, *above, items_)) {
+        values_.make(*topology);
+        resolve(*topology);  // nothing links to it
+      }
+    });
     const std::vector<XmlAttribute> placing = take_placing(item);
     const std::vector<XmlAttribute> more = take_second_translation(item);
     std::set<std::string_view> given;
@@ -86,6 +95,22 @@ class SceneValues {
     if (item.info->role == RoleKind::mapping) check_ends(item, messages_);
     if (auto* parents = component(item).parents()) *parents = item.parents;
     item.progress = SceneItem::Progress::done;
+  }
+
+  // whether a topology has as many points as the state of a node, which has those of the state above where it
+  // is mapped onto the same
+  bool hasPointsOf(ScenePlace const& node, SceneItem& topology) {
+    auto numbers = [this](SceneItem& of) {
+      std::size_t count = 0;
+      const std::string all = values_.valueOf({&of, nullptr, "position"});
+      for (Words words(all); !words.end(); words.next()) ++count;
+      return count;
+    };
+    ScenePlace const* at = &node;
+    std::size_t own = 0;
+    while (at && (own = numbers(*at->ofRole(RoleKind::state))) == 0 && implied_.isIdentity(*at))
+      at = at->parent->owner();
+    return own > 0 && offered(*topology.info, "position") && own == numbers(topology);
   }
 
   // translation2 of a state comes behind its translation
@@ -154,6 +179,7 @@ class SceneValues {
       return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
+    if (!item.info->in2.empty() && (a.name == "input1" || a.name == "input2")) return;
     FieldInfo const* field = nullptr;
     int number = -1;  // of a list among several
     for (auto const& f : item.info->fields) {
@@ -173,7 +199,7 @@ class SceneValues {
         linked.erase(0, linked.find('/', 1));  // from the root on
       } else if (is_link(a.value)) {
         LinkTarget target;
-        if (!follow_field(item, *field, a, target, messages_)) return;
+        if (!follow_field(item, *field, a, target, messages_)) return void(given.erase(field->name));
         if (implied_.takesLaw(item, target)) return implied_.law(item, *field, *target.item, given);
         if (item.info->traits.sizedValues && given.insert("size").second)
           if (const std::size_t size = values_.sizeOfValues(target); size > 0)

@@ -9,8 +9,10 @@
 
 #include <sinew/scene/state_contacts.hpp>
 
+#include <cstddef>
 #include <string_view>
 #include <type_traits>
+#include <vector>
 
 namespace sinew {
 
@@ -81,18 +83,22 @@ struct IsIntersection : std::bool_constant<is_intersection_of_device<C>()> {};
 template <class C>
 struct IsFused : std::disjunction<IsState<C>, IsMass<C>, IsForceField<C>, IsConstraint<C>, IsGravity<C>,
                                   IsOdeSolver<C>, IsLinearSolver<C>, IsLoop<C>, IsConstraintSolver<C>> {};
-/// What takes part in mechanics and has no place in a fused step, such as a force field that steps change. (A
-/// mapping has one, where it leads to no state.)
+/// What takes part in mechanics and is more than a body of elements that one solver moves, such as a force
+/// field that steps change. (A mapping that leads to no state is not.)
 template <class C>
-struct IsForeign
-    : std::bool_constant<
-          HasRole<C, role::InteractionForceField> || HasRole<C, role::Carving> || HasRole<C, role::Cutting> ||
-          HasRole<C, role::StepDivision> || HasRole<C, role::LagrangianConstraint> ||
-          HasRole<C, role::ConstraintCorrection> || (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
-          (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) || ActsBeforeStep<C> ||
-          (HasRole<C, role::ForceField> && Resettable<C> && !IdleBeforeStep<C>) ||
-          (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
-          (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
+struct IsMoreThanABody
+    : std::bool_constant<HasRole<C, role::InteractionForceField> || HasRole<C, role::Carving> ||
+                         HasRole<C, role::Cutting> || HasRole<C, role::StepDivision> ||
+                         HasRole<C, role::LagrangianConstraint> || HasRole<C, role::ConstraintCorrection> ||
+                         ActsBeforeStep<C> ||
+                         (HasRole<C, role::ForceField> && Resettable<C> && !IdleBeforeStep<C>)> {};
+/// What has no place in a fused step.
+template <class C>
+struct IsForeign : std::bool_constant<IsMoreThanABody<C>::value ||
+                                      (HasRole<C, role::AnimationLoop> && !IsLoop<C>::value) ||
+                                      (HasRole<C, role::ConstraintSolver> && !IsConstraintSolver<C>::value) ||
+                                      (HasRole<C, role::OdeSolver> && !IsOdeSolver<C>::value) ||
+                                      (HasRole<C, role::LinearSolver> && !IsLinearSolver<C>::value)> {};
 
 }  // namespace detail
 
@@ -105,9 +111,8 @@ inline constexpr std::string_view fused_fields = HasRole<C, role::ForceField> ? 
 template <>
 inline constexpr std::string_view fused_fields<EulerImplicitSolver> =
     "rayleighStiffness rayleighMass vdamping";
-template <>
-inline constexpr std::string_view fused_fields<CGLinearSolver<GraphScattered>> =
-    "iterations tolerance threshold";
+template <class Matrix>
+inline constexpr std::string_view fused_fields<CGLinearSolver<Matrix>> = "iterations tolerance threshold";
 template <>
 inline constexpr std::string_view fused_fields<Gravity> = "gravity";
 template <>
@@ -141,24 +146,40 @@ constexpr bool are_fields_of(std::string_view names) {
   return all;
 }
 
-/// Throws Error where a field that a fused step does not honour has another value than by default.
+/// Throws Error where a field that a fused step, or `who`, does not honour has another value than by default.
 template <class C>
-void refuse_other_fields(C const& component) {
+void refuse_other_fields(C const& component, char const* who = "FusedSimulation") {
   constexpr std::string_view honoured = fused_fields<C>;
   if constexpr (honoured != every_field) {
     static_assert(are_fields_of<C>(honoured), "Sinew: fused_fields names a field that the component lacks.");
     const C plain{};
     for_each_field(component, [&](auto const& field, auto const& value) {
       if (!has_name(honoured, field.name) && !(value == plain.*field.member))
-        throw Error("FusedSimulation",
+        throw Error(who,
                     text(component_name<C>(),
                          ": ",
                          field.name,
                          " (",
                          field.documentation,
-                         ") has another value than its default, which is all that a fused step knows; leave "
-                         "it out, or take Simulation"));
+                         ") has another value than its default, which is all that ",
+                         who,
+                         " knows; leave it out, or take Simulation"));
     });
+  }
+}
+
+/// held[i] |= the components of point i that a constraint holds, as bits.
+template <class D, class C, class Bits>
+void note_held(C const& constraint, std::vector<Bits>& held) {
+  auto hold = [&](int i, int bits) { held[std::size_t(i)] = Bits(held[std::size_t(i)] | bits); };
+  if constexpr (requires { constraint.fixedDirections; }) {
+    for (const int i : constraint.held)
+      for (int c = 0; c < 3; ++c) hold(i, constraint.fixedDirections[std::size_t(c)] << c);
+  } else {
+    static_assert(std::is_same_v<C, FixedConstraint<D>>,
+                  "Sinew: FusedSimulation and DistributedSimulation know FixedConstraint and "
+                  "PartialFixedConstraint; a scene with others is stepped by Simulation.");
+    for (const int i : constraint.held) hold(i, 7);
   }
 }
 

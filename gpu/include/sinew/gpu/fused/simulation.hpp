@@ -125,7 +125,8 @@ class FusedSimulation {
     sends_ = plan.sends;
 
     std::vector<int> held(nodes_, 0);
-    std::apply([&](auto*... c) { (hold(*c, held), ...); }, components_that<detail::IsConstraint>(all));
+    std::apply([&](auto*... c) { (detail::note_held<D>(*c, held), ...); },
+               components_that<detail::IsConstraint>(all));
     held_ = std::move(held);
     const auto n = std::size_t(copies) * nodes_;
     x_ = Array<Coord>(n, Coord(Coord::Zero()));
@@ -180,6 +181,19 @@ class FusedSimulation {
     copy_on_device(state.position.overwrite(), x_.device() + std::size_t(copy) * nodes_, nodes_);
     copy_on_device(state.velocity.overwrite(), v_.device() + std::size_t(copy) * nodes_, nodes_);
     to.continueFrom(time_, step_);
+  }
+
+  /// What load() and store() copy of a simulation is in memory of the current device, and there when this
+  /// returns, so that another device may copy it.
+  static void settle(Simulation<Root>& simulation) {
+    const All all = components_of(simulation.root());
+    auto& state = *only<detail::IsState>(all);
+    std::as_const(state.position).device();
+    std::as_const(state.velocity).device();
+    std::apply(
+        [](auto const*... field) { ((field->driver.rest.device(), field->driver.index.device()), ...); },
+        fieldsOf(all));
+    wait();
   }
 
   /// Makes steps of dt seconds in all copies. Returns before they are done; throws Error where dt is no
@@ -290,19 +304,6 @@ class FusedSimulation {
       for (const int i : e)
         for (const int j : e)
           if (i != j) neighbours[std::size_t(i)].push_back(j);
-  }
-  template <class C>
-  static void hold(C const& constraint, std::vector<int>& held) {
-    if constexpr (requires { constraint.fixedDirections; }) {
-      for (const int i : constraint.held)
-        for (int c = 0; c < 3; ++c) held[std::size_t(i)] |= constraint.fixedDirections[std::size_t(c)] << c;
-    } else {
-      static_assert(
-          std::is_same_v<C, FixedConstraint<D>>,
-          "Sinew: a fused step knows FixedConstraint and PartialFixedConstraint; a scene with others is "
-          "stepped by Simulation.");
-      for (const int i : constraint.held) held[std::size_t(i)] = 7;
-    }
   }
   void checkCopy(int copy) const {
     if (copy < 0 || copy >= copies_)

@@ -65,7 +65,7 @@ class FusedContactsOf<D, Intersection, Manager<Responses...>> {
         if (!pipeline.compare(a, b) || !has_pairs(a, b)) continue;
         CollisionSurface& other = &a == mine ? b : a;
         if ((&a != mine && &b != mine) || &a == &b || other.solver >= 0 || other.rigid ||
-            other.shape == Shape::hull)
+            !(is_simplex(other.shape) || other.shape == Shape::sphere))
           throw Error(other.path,
                       text("a fused step has contacts of the body's points or spheres with triangles, lines, "
                            "points or spheres that no solver moves, and these two may meet otherwise: ",

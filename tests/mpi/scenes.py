@@ -1,0 +1,171 @@
+# SPDX-License-Identifier: BSL-1.0
+"""Scenes of tests with several ranks, written into a folder."""
+import math
+import pathlib
+import sys
+
+
+def grid(n, low, high):
+    """Points and hexahedra of a grid of n points a direction."""
+    points = [[low[c] + (high[c] - low[c]) * i[c] / (n[c] - 1) for c in range(3)]
+              for i in ((x, y, z) for z in range(n[2]) for y in range(n[1]) for x in range(n[0]))]
+    at = lambda x, y, z: x + n[0] * (y + n[1] * z)
+    cells = [[at(x, y, z), at(x + 1, y, z), at(x + 1, y + 1, z), at(x, y + 1, z),
+              at(x, y, z + 1), at(x + 1, y, z + 1), at(x + 1, y + 1, z + 1), at(x, y + 1, z + 1)]
+             for z in range(n[2] - 1) for y in range(n[1] - 1) for x in range(n[0] - 1)]
+    return points, cells
+
+
+def border(cells):
+    """The triangles around hexahedra, seen from outside."""
+    sides = {}
+    for c in cells:
+        for side in ((0, 3, 2, 1), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)):
+            q = [c[i] for i in side]
+            key = tuple(sorted(q))
+            sides[key] = None if key in sides else q
+    return [t for q in sides.values() if q for t in ((q[0], q[1], q[2]), (q[0], q[2], q[3]))]
+
+
+def words(lists):
+    return "  ".join(" ".join(f"{v:.9g}" for v in entry) for entry in lists)
+
+
+def scene(gravity, dt, inside):
+    return f'<Node name="root" gravity="{gravity}" dt="{dt}">\n{inside}</Node>\n'
+
+
+SOLVERS = {"cg": '<CGLinearSolver iterations="2000" tolerance="1e-12"/>',
+           "petsc": '<PetscLinearSolver preconditioner="pbjacobi" tolerance="1e-12"/>'}
+
+
+def mapped(solver):
+    """A bar of hexahedra, with a skin inside its elements that touches a plane and has springs, tips that follow the skin and
+    are pulled, and a copy that touches a sphere and is held."""
+    points, cells = grid((9, 3, 3), (0, 0, 0), (4, 1, 1))
+    skin, faces = grid((12, 4, 4), (0.05, 0.1, 0.1), (3.9, 0.9, 0.9))
+    triangles = border(faces)
+    springs = "  ".join(f"{i} {i + 13} 300 1 {0.5 + i / 100:.3g}" for i in range(0, 150, 7))
+    edges = "  ".join(f"{a} {b}" for a, b, _ in triangles[::9])
+    return scene("0 -9.81 0", 0.01, f"""
+  <Node name="bar">
+    <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="0.1"/>
+    {SOLVERS[solver]}
+    <MeshTopology name="mesh" position="{words(points)}" hexahedra="{words(cells)}"/>
+    <MechanicalObject/>
+    <DiagonalMass massDensity="100"/>
+    <HexahedronFEMForceField youngModulus="2e5" poissonRatio="0.3"/>
+    <BoxROI name="held" box="-0.1 -0.1 -0.1  0.1 1.1 1.1" position="@mesh.position"/>
+    <FixedConstraint indices="@held.indices"/>
+    <Node name="skin">
+      <MeshTopology position="{words(skin)}" edges="{edges}" triangles="{words(triangles)}"/>
+      <MechanicalObject/>
+      <BarycentricMapping/>
+      <UniformMass totalMass="30"/>
+      <PlaneForceField normal="0 1 0" d="0.09" stiffness="2000" damping="5"/>
+      <StiffSpringForceField spring="{springs}"/>
+      <MeshSpringForceField stiffness="400" damping="1"/>
+      <Node name="tips">
+        <MechanicalObject/>
+        <SubsetMapping indices="11 23 47 190 100 3 150"/>
+        <ConstantForceField totalForce="70 -200 30"/>
+        <UniformVelocityDampingForceField dampingCoefficient="2"/>
+      </Node>
+    </Node>
+    <Node name="copy">
+      <MechanicalObject/>
+      <IdentityMapping/>
+      <SphereForceField center="3 -0.6 0.5" radius="0.75" stiffness="1000" damping="1"/>
+      <RestShapeSpringsForceField points="8 17 80" stiffness="500"/>
+    </Node>
+  </Node>
+""")
+
+
+def constraints(solver):
+    """Each projective constraint on some points of a bar."""
+    points, cells = grid((12, 3, 3), (0, 0, 0), (5.5, 1, 1))
+    tetrahedra = [[c[i] for i in t] for c in cells for t in
+                  ((0, 1, 2, 6), (0, 1, 6, 5), (0, 2, 3, 6), (0, 3, 7, 6), (0, 4, 5, 6), (0, 7, 4, 6))]
+    return scene("0 -9.81 0", 0.01, f"""
+  <Node name="bar">
+    <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="0.1"/>
+    {SOLVERS[solver]}
+    <MeshTopology position="{words(points)}" tetrahedra="{words(tetrahedra)}"/>
+    <MechanicalObject/>
+    <DiagonalMass massDensity="100"/>
+    <TetrahedronFEMForceField youngModulus="1e5" poissonRatio="0.3"/>
+    <FixedPlaneConstraint direction="1 0 0" dmin="-0.1" dmax="0.1"/>
+    <PartialFixedConstraint indices="13 50" fixedDirections="0 1 0"/>
+    <LinearMovementConstraint indices="23 35" keyTimes="0 0.1 0.3" movements="0 0 0  0.1 0.05 0  0.1 -0.1 0"/>
+    <LinearVelocityConstraint indices="5 101" keyTimes="0 0.1 0.3" velocities="0 0 0  0.3 0 0.1  0 0 0.2"/>
+    <AffineMovementConstraint indices="72 84 96" beginConstraintTime="0" endConstraintTime="1" rotation="1 0 0  0 1 0  0 0 1" translation="0 0.2 0.1"/>
+    <OscillatorConstraint oscillators="40 2 0.5 0.5  0 0.1 0  10 0"/>
+    <ParabolicConstraint indices="95" P1="0 0 0" P2="0.05 0.1 0" P3="0.1 0 0" BeginTime="0" EndTime="0.5"/>
+    <HermiteSplineConstraint indices="107" BeginTime="0" EndTime="0.5" X0="5.5 1 1" dX0="0.1 0.2 0" X1="5.6 1.1 1" dX1="0 0.1 0" SX0="0 0" SX1="1 1"/>
+    <ProjectDirectionConstraint indices="18 90" direction="0 1 0.2"/>
+    <ProjectToPointConstraint indices="28" point="2 1 0"/>
+    <ProjectToLineConstraint indices="65" origin="2.5 1 0.5" direction="0 1 0"/>
+    <ProjectToPlaneConstraint indices="55 57" origin="0 0.5 0.5" normal="0 0 1"/>
+  </Node>
+""")
+
+
+def contact(solver):
+    """Two soft blocks fall on a floor and on each other, with surfaces that follow them. No two edges are parallel: where two
+    places are as near, rounding would choose between them."""
+    def block(name, low, high):
+        points, cells = grid((5, 3, 3), low, high)
+        points = [[x + 0.012 * math.sin(37 * i + 11 * c) for c, x in enumerate(p)] for i, p in enumerate(points)]
+        surface = border(cells)
+        used = sorted({i for t in surface for i in t})
+        now = {old: i for i, old in enumerate(used)}
+        return f"""
+    <Node name="{name}">
+      <MeshTopology position="{words(points)}" hexahedra="{words(cells)}"/>
+      <MechanicalObject/>
+      <UniformMass totalMass="2"/>
+      <HexahedronFEMForceField youngModulus="20000" poissonRatio="0.3"/>
+      <Node name="surface">
+        <MeshTopology triangles="{words([[now[i] for i in t] for t in surface])}"/>
+        <MechanicalObject position="{words([points[i] for i in used])}"/>
+        <SubsetMapping/>
+        <TriangleCollisionModel contactStiffness="10" contactDamping="2"/>
+        <LineCollisionModel contactStiffness="10" contactDamping="2"/>
+        <PointCollisionModel contactStiffness="10" contactDamping="2"/>
+      </Node>
+    </Node>"""
+    return scene("0 -9.81 0", 0.005, f"""
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.02"/>
+  <DefaultContactManager response="PenalityContactForceField"/>
+  <Node name="floor">
+    <MeshTopology triangles="0 2 1  0 3 2"/>
+    <MechanicalObject position="-3 0 -3  3 0 -3  3 0.2 3  -3 0.2 3"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="200"/>
+  </Node>
+  <Node name="bodies">
+    <EulerImplicitSolver rayleighStiffness="0.02"/>
+    {SOLVERS[solver]}
+    {block("lower", (-0.4, 0.12, -0.2), (0.4, 0.42, 0.2))}
+    {block("upper", (-0.2, 0.45, -0.25), (0.7, 0.75, 0.15))}
+  </Node>
+""")
+
+
+def write(folder):
+    folder = pathlib.Path(folder)
+    folder.mkdir(parents=True, exist_ok=True)
+    all = {}
+    for make in mapped, constraints, contact:
+        for solver in SOLVERS:
+            path = folder / f"{make.__name__}_{solver}.scn"
+            path.write_text(make(solver))
+            all[path.stem] = str(path)
+    return all
+
+
+if __name__ == "__main__":
+    write(sys.argv[1])
