@@ -2082,17 +2082,17 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <Node name="block">
     <EulerImplicitSolver rayleighStiffness="0.01"/>
     <CGLinearSolver iterations="50" tolerance="1e-8"/>
-    <RegularGridTopology n="3 3 3" max="0.4 0.4 0.4"/>
-    <MechanicalObject/>
+    <MeshTopology tetrahedra="0 1 2 3  1 4 2 3  4 5 2 3"/>
+    <MechanicalObject position="0 0 0  0.4 0 0  0 0.4 0  0 0 0.4  0.4 0 0.4  0 0.4 0.4"/>
     <UniformMass totalMass="4"/>
     <TetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>
-    <FixedConstraint indices="0 1 2 9 10 11 18 19 20"/>
+    <FixedConstraint indices="0 1 3 4"/>
     <TetrahedronCollisionModel contactStiffness="10"/>
   </Node>
   <Node name="ball">
     <EulerImplicitSolver/>
     <CGLinearSolver iterations="50" tolerance="1e-8"/>
-    <MechanicalObject position="0.25 0.3 0.2"/>
+    <MechanicalObject position="0.1 0.6 0.25"/>
     <UniformMass totalMass="0.1"/>
     <SphereCollisionModel radius="0.05" contactStiffness="10" contactDamping="1"/>
   </Node>

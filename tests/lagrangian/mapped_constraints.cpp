@@ -155,4 +155,48 @@ TEST_CASE("a soft body hangs on a point inside it, which carries its weight") {
   CHECK(center[2] < inside[2]);
 }
 
+TEST_CASE("a rod that hangs on a point with several parents swings as on the point of the rod itself") {
+  // the multipliers turn with the rod: their geometric stiffness goes through both mappings to its turn
+  using End = MechanicalObject<Vec3d>;
+  using Rod = RigidMapping<Rigid3d, Vec3d>;
+  auto body = [](auto joint, auto... others) {
+    RigidCoord3<double> start;
+    start.center = {0.6, 0, 0};
+    const double inertia = 3 * 1.2 * 1.2 / 12;
+    return RegistryScene{node<"root">(
+        Gravity{{0, 0, -g}},
+        FreeMotionAnimationLoop{},
+        gaussSeidel,
+        joint,
+        node<"ceiling">(End{.position = {{0, 0, 0}}}),
+        node<"rod">(
+            EulerImplicitSolver{},
+            SparseLDLSolver<>{},
+            MechanicalObject<Rigid3d>{.position = {start}},
+            UniformMass<Rigid3d>{
+                .vertexMass = RigidMass<double, 3>{3, Eigen::Vector3d(0.01, inertia, inertia).asDiagonal()}},
+            node<"end">(End{.position = {{-0.6, 0, 0}}}, Rod{}),
+            node<"tip">(End{.position = {{0.6, 0, 0}}}, Rod{}),
+            others...))};
+  };
+  auto direct = body(BilateralLagrangianConstraint<Vec3d, Between<"ceiling", "rod/end">>{
+      .first_point = {0}, .second_point = {0}});
+  auto joined = body(
+      BilateralLagrangianConstraint<Vec3d, Between<"ceiling", "rod/joined">>{.first_point = {0},
+                                                                             .second_point = {0}},
+      node<"joined">(End{.position = {{0, 0, 0}}},
+                     SubsetMultiMapping<Vec3d, Vec3d, Parents<"../end", "../tip">>{.indexPairs = {{0, 0}}}));
+  direct.init();
+  joined.init();
+  for (int i = 0; i < 200; ++i) {
+    direct.animate(0.01);
+    joined.animate(0.01);
+    auto const& a = direct.at<"rod">().state();
+    auto const& b = joined.at<"rod">().state();
+    CHECK((a.position[0].center - b.position[0].center).norm() < 1e-9);
+    CHECK((a.velocity[0] - b.velocity[0]).norm() < 1e-7);
+  }
+  CHECK(direct.at<"rod/tip">().state().position[0][2] < -0.1);
+}
+
 }  // namespace test_mapped_constraints

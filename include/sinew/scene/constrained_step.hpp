@@ -52,12 +52,22 @@ struct ConstrainedStep {
                  if (!c.multipliers.empty()) forceMapped(c, scope, m.rows);
              }));
     traverse_back(root, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+                    using M = std::decay_t<decltype(mapping)>;
                     scope.withMapped(mapping, [&](auto& it, auto& child, auto& parent) {
                       if constexpr (requires { child.multiplierForce, parent.multiplierForce; })
-                        if (!child.multiplierForce.empty() && scope.parentScope().stateScope().mapped())
+                        if (!child.multiplierForce.empty() && goesOn<M>(scope))
                           it.applyJT(forceOf(parent), child.multiplierForce);
                     });
                   }));
+  }
+  // whether what a mapping brings to its parent is asked for there: no one asks a state that is not mapped;
+  // of several parents each may be
+  template <class M, class S>
+  static bool goesOn(S const& scope) {
+    if constexpr (HasParents<M>)
+      return true;
+    else
+      return scope.parentScope().stateScope().mapped();
   }
   template <class C, class S>
   void forceMapped(C& c, S const& scope, ConstraintRows& rows) const {
