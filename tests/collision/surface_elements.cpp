@@ -59,4 +59,11 @@ TEST_CASE("prisms and pyramids have a surface together with what is beside them"
   }
 }
 
+TEST_CASE("a quad whose halves are triangles of the topology, as those of grids are, counts once") {
+  const std::vector<Triangle> halves{{0, 1, 4}, {0, 4, 3}};
+  const std::vector<Quad> quads{{0, 1, 4, 3}, {1, 2, 5, 4}};
+  CHECK(triangles_of({.triangles = halves, .quads = quads}).size() == 4);
+  CHECK(lines_of({.triangles = halves, .quads = quads}).size() == 9);
+}
+
 }  // namespace test_surface_elements

@@ -42,8 +42,12 @@ std::string scene_of(ClassInfo const& info) {
                 element(info.name, given + " object1=\"@a\" object2=\"@b\"") +
                     node("a", state(info.dataTypes)) + node("b", state(info.dataTypes)));
   if (info.role == RoleKind::mapping) {
+    std::string const place = state(info.out);
+    if (!info.in2.empty())
+      return node("above", state(info.in)) + node("second", state(info.in2)) +
+             node("place", place + element(info.name, given + " input1=\"@../above\" input2=\"@../second\""));
     std::string const input = info.severalParents ? " input=\"@..\"" : "";
-    return node("above", state(info.in) + node("place", state(info.out) + element(info.name, given + input)));
+    return node("above", state(info.in) + node("place", place + element(info.name, given + input)));
   }
   if (info.traits.joinsTopologies)
     return node("above", "<MeshTopology/>" + node("place", "<MeshTopology/>" + element(info.name, given)));

@@ -16,7 +16,8 @@ std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points)
 
 /// The surface of the volume elements of a topology, oriented outwards, whatever of it is listed, so that it
 /// is that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
-/// are cut in two. Where positions are given, elements of negative volume have their outside outside, too.
+/// are cut in two, of which those that are triangles of the topology already are left out. Where positions
+/// are given, elements of negative volume have their outside outside, too.
 std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
                                            std::span<Eigen::Vector3d const> positions = {});
 
@@ -105,6 +106,8 @@ SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
     if (!std::binary_search(known.begin(), known.end(), sorted_corners(c))) all.push_back(c);
   };
   for (Triangle const& c : t.triangles) add(c);
+  for (Triangle const& c : t.triangles) known.push_back(sorted_corners(c));  // grids list both
+  std::sort(known.begin(), known.end());
   for (Quad const& q : t.quads)
     for (PrimitiveCorners const& c : quad(q)) add(c);
   return all;
