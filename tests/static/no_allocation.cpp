@@ -145,6 +145,20 @@ TEST_CASE("multigrid allocates in the first step only") {
                                         .coarsestSize = 12}) == 0);
 }
 
+TEST_CASE("a blade that moves beside a body makes no step allocate") {
+  const Mesh mesh = regular_grid_tetrahedra(4, 4, 4, {0, 0, 0}, {1, 1, 1});
+  CHECK(allocations_of(Simulation{
+            node<"root">(CuttingManager{.toolModel = "tool", .bodyModel = "body"},
+                         node<"tool">(EulerExplicitSolver{},
+                                      MechanicalObject<Vec3d>{.position = {{3, 0, 0}, {3, 1, 0}, {3, 2, 0}},
+                                                              .velocity = {{1, 0, 0}, {1, 0, 0}, {1, 0, 0}}},
+                                      UniformMass<Vec3d>{}),
+                         node<"body">(EulerExplicitSolver{},
+                                      MeshTopology{.tetrahedra = mesh.tetrahedra},
+                                      MechanicalObject<Vec3d>{mesh.positions},
+                                      DiagonalMass<Vec3d>{.totalMass = 1}))}) == 0);
+}
+
 TEST_CASE("no step after init allocates, not even the first") {
   CHECK(allocations_of(examples::string_on_rigid(EulerExplicitSolver{})) == 0);
   CHECK(allocations_of(examples::string_on_rigid(RungeKutta2Solver{})) == 0);

@@ -62,13 +62,14 @@ struct CuttingManager {
               range::nonNegative));
   }
 
-  // after init: paths from the root of the scene on
+  // after init: paths from the root of the scene on, and the numbers of what is there
   std::string tool{}, body{};
+  int toolState = -1, bodyTopology = -1;
   std::size_t mayHave = 0;
   // of the steps
   long cut = 0, refused = 0;  // elements through which it has gone, and cuts that could not be made
   std::string message{};      // why the last of these could not
-  std::vector<Eigen::Vector3d> blade{}, positions{};  // when it cut last
+  std::vector<Eigen::Vector3d> bladeNow{}, positionsNow{}, blade{}, positions{};  // of this and the last step
   CutFront front{};
   int stroke = 0;
   Eigen::Vector3d facing = Eigen::Vector3d::Zero();  // what is in front of the blade in this stroke
@@ -85,8 +86,10 @@ struct CuttingManager {
     forget();
   }
 
-  void prepare(std::size_t points) {
-    if (mayHave == 0) mayHave = capacity > 0 ? std::size_t(capacity) : 4 * points;
+  void prepare() {
+    blade.reserve(bladeNow.size());
+    positions.reserve(positionsNow.size());
+    if (mayHave == 0) mayHave = capacity > 0 ? std::size_t(capacity) : 4 * positionsNow.size();
   }
   CutRules rules() const { return {snapping, quality, mayHave}; }
 
@@ -97,32 +100,36 @@ struct CuttingManager {
     CutFront front;
     std::vector<Eigen::Vector3d> before;
   };
-  std::optional<Sweep> sweep(std::vector<Eigen::Vector3d> const& now, std::vector<Eigen::Vector3d> const& x) {
-    std::vector<Eigen::Vector3d> from = std::exchange(blade, now), before = std::exchange(positions, x);
-    if (before.size() != x.size()) {  // others have gone or come
+  std::optional<Sweep> sweep() {
+    blade.swap(bladeNow);
+    positions.swap(positionsNow);
+    auto &from = bladeNow, &before = positionsNow;  // of the last step
+    if (before.size() != positions.size()) {        // others have gone or come
       before.clear();
       forget();
     }
-    if (!active || from.size() != now.size()) {
+    if (!active || from.size() != blade.size()) {
       forget();
       return {};
     }
-    SweptBlade swept({}, {from, now});
-    Eigen::AlignedBox3d box;
-    for (auto const& p : x) box.extend(p);
-    for (auto const& p : before) box.extend(p);
+    Eigen::AlignedBox3d box, swept;
+    for (auto const* points : {&positions, &before})
+      for (auto const& p : *points) box.extend(p);
+    for (auto const* points : {&blade, &from})
+      for (auto const& p : *points) swept.extend(p);
     // what it carries may lie beside it
     const Eigen::Vector3d margin = Eigen::Vector3d::Constant(0.1 * box.diagonal().norm());
     box = {box.min() - margin, box.max() + margin};
-    if (!box.intersects(swept.box())) {
+    if (!box.intersects(swept)) {
       ++stroke;
       facing.setZero();
       return {};
     }
-    const Eigen::Vector3d normal = swept.normal();
+    SweptBlade surface({}, {from, blade});
+    const Eigen::Vector3d normal = surface.normal();
     const bool turned = facing.dot(normal) < 0;
     if (normal.norm() > 0) facing = turned ? Eigen::Vector3d(-normal) : normal;
-    return Sweep{{std::move(swept), stroke, turned}, rules(), front, std::move(before)};
+    return Sweep{{std::move(surface), stroke, turned}, rules(), front, before};
   }
   template <class Cut>
   void accept(Cut const& done) {

@@ -27,14 +27,24 @@ std::set<void const*> same_points(RootScope const& root, void const* state) {
   return states;
 }
 
-/// Where points of a state are, in space.
+/// Where a point of a state is, in space; the origin for what has no place there.
 template <class State>
-std::vector<Eigen::Vector3d> centers_of(State const&, typename State::VecCoord const& x) {
+Eigen::Vector3d center_of(State const&, typename State::DataTypes::Coord const& x) {
   using D = typename State::DataTypes;
-  std::vector<Eigen::Vector3d> all(x.size(), Eigen::Vector3d::Zero());
-  if constexpr (D::spatial <= 3 && requires { D::center(x[0]); })
-    for (std::size_t i = 0; i < all.size(); ++i)
-      all[i].template head<D::spatial>() = D::center(x[i]).template cast<double>();
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  if constexpr (D::spatial <= 3 && requires { D::center(x); })
+    center.template head<D::spatial>() = D::center(x).template cast<double>();
+  return center;
+}
+template <class State>
+void set_centers(std::vector<Eigen::Vector3d>& all, State const& s, typename State::VecCoord const& x) {
+  all.resize(x.size());
+  for (std::size_t i = 0; i < all.size(); ++i) all[i] = center_of(s, x[i]);
+}
+template <class State>
+std::vector<Eigen::Vector3d> centers_of(State const& s, typename State::VecCoord const& x) {
+  std::vector<Eigen::Vector3d> all;
+  set_centers(all, s, x);
   return all;
 }
 

@@ -40,10 +40,12 @@ struct Cutting {
       };
       try {
         at(number, [&](auto& c, auto const&) {
+          this->look(c);
+          auto sweep = c.sweep();
+          if (!sweep) return;
           path = c.body.substr(std::min(c.body.size(), root.path().size() + 1));
-          const Body body = this->bodyAt(c.body);
-          if (auto sweep = c.sweep(this->bladeOf(c), positionsOf(body)))
-            order = CutOrder{sweep->stroke, sweep->rules, sweep->front, sweep->before};
+          order = CutOrder{
+              std::move(sweep->stroke), sweep->rules, std::move(sweep->front), std::move(sweep->before)};
         });
         if (!order) continue;
         const auto done = cut(path, *order);
@@ -58,6 +60,7 @@ struct Cutting {
 
  private:
   struct Body {
+    int number = -1;  // of its topology
     void const *topology = nullptr, *state = nullptr;
   };
 
@@ -71,52 +74,53 @@ struct Cutting {
       wrong("bodyModel is not given; name the node with the topology that is to be cut");
     c.tool = path_from(scope.path(), c.toolModel);
     c.body = path_from(scope.path(), c.bodyModel);
-    const std::size_t points = pointsOf(c.tool);
+    std::size_t points = 0;
+    int number = 0;
+    traverse(root, on<role::State>([&](auto const& s, auto const& owner) {
+               if (owner.path() == c.tool) points = s.size(), c.toolState = number;
+               ++number;
+             }));
     if (points == 0) wrong("toolModel leads to ", c.tool, ", where there is no state with points");
     for (const int i : c.indices)
       if (std::size_t(i) >= points)
         wrong("indices has ", i, ", but the blade has ", points, " points, numbered from 0; correct it");
     if ((c.indices.empty() ? points : c.indices.size()) < 2)
       wrong("the blade is one point; give two or more, in their order along it");
-    const Body body = bodyAt(c.body);
+    const Body body = bodyWhere([&](int, auto const& owner) { return owner.path() == c.body; });
     if (!body.topology)
       wrong("bodyModel leads to ", c.body, ", where there is no topology over a state; name the node of one");
-    CutBody<RootScope> cut(root, body.topology, body.state);
-    c.prepare(cut.positions().size());
+    c.bodyTopology = body.number;
+    CutBody<RootScope>(root, body.topology, body.state);  // it has looked at all that stands on these points
+    look(c);
+    c.prepare();
   }
 
-  Body bodyAt(std::string const& path) const {
+  // the first topology over a state for which is(number, scope)
+  template <class F>
+  Body bodyWhere(F const& is) const {
     Body found;
+    int number = 0;
     traverse(root, on<role::Topology>([&](auto& t, auto const& scope) {
-               if (!found.topology && scope.path() == path && scope.pointsAddress())
-                 found = {&t, scope.pointsAddress()};
+               if (!found.topology && scope.pointsAddress() && is(number, scope))
+                 found = {number, &t, scope.pointsAddress()};
+               ++number;
              }));
     return found;
   }
-  std::vector<Eigen::Vector3d> positionsOf(Body const& body) const {
-    std::vector<Eigen::Vector3d> x;
-    traverse(root, on<role::State>([&](auto const& s, auto const&) {
-               if (static_cast<void const*>(&s) == body.state) x = centers_of(s, s.position);
-             }));
-    return x;
-  }
-  std::size_t pointsOf(std::string const& path) const {
-    std::size_t count = 0;
-    traverse(root, on<role::State>([&](auto const& s, auto const& scope) {
-               if (scope.path() == path) count = s.size();
-             }));
-    return count;
-  }
+  // where blade and body are
   template <class C>
-  std::vector<Eigen::Vector3d> bladeOf(C const& c) const {
-    std::vector<Eigen::Vector3d> all, blade;
-    traverse(root, on<role::State>([&](auto const& s, auto const& scope) {
-               if (scope.path() == c.tool) all = centers_of(s, s.position);
+  void look(C& c) const {
+    const Body body = bodyWhere([&](int number, auto const&) { return number == c.bodyTopology; });
+    int number = 0;
+    traverse(root, on<role::State>([&](auto const& s, auto const&) {
+               if (static_cast<void const*>(&s) == body.state) set_centers(c.positionsNow, s, s.position);
+               if (number++ != c.toolState) return;
+               if (c.indices.empty()) return set_centers(c.bladeNow, s, s.position);
+               c.bladeNow.clear();
+               for (const int i : c.indices)
+                 if (std::size_t(i) < s.size())
+                   c.bladeNow.push_back(center_of(s, s.position[std::size_t(i)]));
              }));
-    if (c.indices.empty()) return all;
-    for (const int i : c.indices)
-      if (std::size_t(i) < all.size()) blade.push_back(all[std::size_t(i)]);
-    return blade;
   }
   template <class F>
   void at(int number, F&& f) const {

@@ -11,7 +11,8 @@ namespace sinew {
 // What a blade cuts while a scene runs: CuttingManager is the one that there is.
 
 /// Whether it cuts, with which points of the state of which node, and the topology of which node: paths as they
-/// are given; init makes `tool` and `body` of them, from the root of the scene on.
+/// are given; init makes `tool` and `body` of them, from the root of the scene on, and `toolState` and
+/// `bodyTopology`, which of all states and topologies of the scene they lead to.
 template <class C>
 concept NamesBlade = requires(C c) {
   { c.active } -> std::convertible_to<bool>;
@@ -20,14 +21,18 @@ concept NamesBlade = requires(C c) {
   { c.indices } -> std::convertible_to<std::vector<int> const&>;
   { c.tool } -> std::same_as<std::string&>;
   { c.body } -> std::same_as<std::string&>;
+  { c.toolState } -> std::same_as<int&>;
+  { c.bodyTopology } -> std::same_as<int&>;
 };
-/// prepare(points) at init, with the number of points of the body. sweep(blade, positions) before a step, with
-/// where the points of blade and body are, says what is to be cut, if something is; then either accept(cut), with
-/// what has been done, or refuse(message).
+/// `bladeNow` and `positionsNow` are filled with where the points of blade and body are, at init, before prepare(), and
+/// before each step, in which sweep() says what is to be cut, if something is; then
+/// either accept(cut), with what has been done, or refuse(message).
 template <class C>
-concept SweepsBlade = requires(C c, std::vector<Eigen::Vector3d> const x, std::string const message) {
-  c.prepare(std::size_t(0));
-  c.sweep(x, x);
+concept SweepsBlade = requires(C c, std::string const message) {
+  c.prepare();
+  { c.bladeNow } -> std::same_as<std::vector<Eigen::Vector3d>&>;
+  { c.positionsNow } -> std::same_as<std::vector<Eigen::Vector3d>&>;
+  c.sweep();
   c.refuse(message);
 };
 
@@ -43,12 +48,12 @@ struct Promise<role::Cutting> : NoPromise {
     static constexpr bool named = NamesBlade<C>, sweeps = SweepsBlade<C>;
     static_assert(named,
                   "Sinew: a component with role::Cutting has no 'bool active', no 'std::string toolModel{}, "
-                  "bodyModel{}' and 'std::vector<int> indices{}', or no 'std::string tool{}, body{}', which "
-                  "init makes of them.");
+                  "bodyModel{}' and 'std::vector<int> indices{}', or no 'std::string tool{}, body{}' and "
+                  "'int toolState, bodyTopology', which init makes of them.");
     static_assert(
         sweeps,
-        "Sinew: a component with role::Cutting has no 'prepare(points)', 'sweep(blade, positions)', "
-        "'accept(cut)' or 'refuse(message)', which the steps call.");
+        "Sinew: a component with role::Cutting has no 'prepare()', 'std::vector<Eigen::Vector3d> "
+        "bladeNow, positionsNow', 'sweep()', 'accept(cut)' or 'refuse(message)', which the steps call.");
   };
 };
 
