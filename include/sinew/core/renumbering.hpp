@@ -78,6 +78,9 @@ struct Renumbering {
   /// So many that all stay, and others that come.
   static Renumbering grown(std::size_t stay, std::vector<Origin> come);
 
+  /// This, and then another in which nothing comes.
+  Renumbering then(Renumbering const& removal) const;
+
   std::vector<bool> stays() const {
     std::vector<bool> all;
     for (const Index n : now) all.push_back(n >= 0);
@@ -153,7 +156,8 @@ struct AddedElements {
   std::vector<Quad> quads{};
   std::vector<Tetrahedron> tetrahedra{};
   std::vector<Hexahedron> hexahedra{};
-  /// Of each kind, the element of the same kind of which each is a part, whose values it has; empty: of none.
+  /// Of each kind, the element of the same kind of which each is a part, whose values it has, -1 for one that
+  /// is of none; empty: all of none.
   std::array<std::vector<Index>, element_kinds> ancestors{};
 
   bool empty() const {
@@ -211,6 +215,19 @@ struct TopologyChange {
 
 #if SINEW_DEFINES
 namespace sinew {
+
+SINEW_ONCE Renumbering Renumbering::then(Renumbering const& removal) const {
+  if (now.empty()) return removal;
+  if (removal.now.empty()) return *this;
+  Renumbering both;
+  for (const Index between : removal.kept)
+    if (std::size_t(between) < kept.size())
+      both.kept.push_back(kept[std::size_t(between)]);
+    else
+      both.come.push_back(come[std::size_t(between) - kept.size()]);
+  for (const Index between : now) both.now.push_back(between < 0 ? -1 : removal.now[std::size_t(between)]);
+  return both;
+}
 
 SINEW_ONCE void Renumbering::set(std::vector<bool> const& stays) {
   kept.clear();

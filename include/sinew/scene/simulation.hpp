@@ -157,6 +157,14 @@ class Simulation {
   /// element or point that what comes would not have: nothing has changed then.
   TopologyChange addElements(std::string_view path, AddedElements const& elements);
 
+  /// Parts elements of the topology of the node at a path from the root at the middles of their edges
+  /// (plan_refinement): edges in 2, triangles in 4, tetrahedra in 8, and of their neighbours what has one of
+  /// these edges; all where no number is given. Points and parts come as those of addElements do, with the
+  /// values of the elements that go, so that length, area, volume, strain, masses by density and momentum
+  /// stay. Returns what became of points and elements. Throws Error as addElements does, and for other
+  /// elements: nothing has changed then.
+  TopologyChange refineElements(std::string_view path, ElementNumbers const& elements = {});
+
   /// Cuts the topology of the node at a path from the root ("liver"), tetrahedra or else triangles, along
   /// what a blade sweeps, where the body is now (plan_cut): elements through which it goes are parted, their
   /// points are there twice, and what comes is between what there was, in place, at rest and in velocity. All
@@ -286,6 +294,34 @@ template <class Root>
 TopologyChange Simulation<Root>::addElements(std::string_view path, AddedElements const& elements) {
   initialisedFor("addElements");
   return editTopology(path, elements);
+}
+
+template <class Root>
+TopologyChange Simulation<Root>::refineElements(std::string_view path, ElementNumbers const& elements) {
+  initialisedFor("refineElements");
+  TopologyChange change;
+  if constexpr (proved) {
+    Root next(root_);
+    const auto scope = scopeOf(next);
+    scope.settled();
+    auto edit = [&](auto const& order) {
+      TopologyEdit edits(scope, path, order);
+      edits.apply();
+      Initialisation<RootScope>(scope, edits.touched()).run();
+      change = edits.change();
+      return edits.whole();
+    };
+    const ElementNumbers whole = edit(RefineOrder{elements});
+    TopologyChange both = change;
+    edit(whole);
+    both.points = both.points.then(change.points);
+    for (std::size_t k = 0; k < element_kinds; ++k)
+      both.elements[k] = both.elements[k].then(change.elements[k]);
+    change = std::move(both);
+    root_ = std::move(next);
+    propagate();
+  }
+  return change;
 }
 
 template <class Root>

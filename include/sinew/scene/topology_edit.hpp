@@ -7,6 +7,7 @@
 #include <sinew/scene/removed_border.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/states_of.hpp>
+#include <sinew/topology/refinement.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
 #include <functional>
@@ -22,6 +23,11 @@ namespace sinew {
 /// A topology whose elements may be removed.
 template <class T>
 inline constexpr bool editable_topology = requires(T t) { t.edit(); };
+
+/// What is to be refined: elements of a topology; empty: all.
+struct RefineOrder {
+  ElementNumbers const& elements;
+};
 
 /// Takes elements out of one topology of a scene, puts some into it, or cuts them, with all that refers to
 /// them; the scene then has to be initialised again where touched() says. Triangles and quads that are the
@@ -53,6 +59,29 @@ class TopologyEdit {
     find(path);
     planAddition(added);
   }
+
+  /// Puts parts of elements behind these (plan_refinement), which whole() then names.
+  TopologyEdit(RootScope const& root, std::string_view path, RefineOrder const& order) : root_(root) {
+    find(path);
+    refuseValues();
+    TopologyView view;
+    std::string where;
+    for (Topology const& t : topologiesOver(state_))
+      if (t.address == topology_) view = t.view, where = t.path;
+    std::vector<Eigen::Vector3d> rest;
+    traverse(root_, on<role::State>([&](auto const& s, auto const&) {
+               if (static_cast<void const*>(&s) == state_) set_centers(rest, s, s.restPosition);
+             }));
+    Refinement refinement;
+    try {
+      refinement = plan_refinement(view, rest, order.elements);
+    } catch (Error const& error) {
+      throw Error(where, error.what());
+    }
+    whole_ = std::move(refinement.whole);
+    planAddition(refinement.parts);
+  }
+  ElementNumbers const& whole() const { return whole_; }
 
   /// What a cut has done; there is nothing to apply where no element is cut.
   CutPlan const& cut() const { return cut_; }
@@ -92,6 +121,7 @@ class TopologyEdit {
   std::map<void const*, BorderLists> borders_{};  // of the topologies and visual models that are the border
   std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
+  ElementNumbers whole_{};
   std::list<CutPlan> carried_{};                  // of the surfaces that the body carries
   std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
   std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come

@@ -129,7 +129,7 @@ inline void check_addition(std::size_t points, TopologyView const& body, AddedEl
                        list.size(),
                        " elements; give one for each, or none"));
     for (const Index a : ancestors)
-      if (a < 0 || std::size_t(a) >= count)
+      if (a < -1 || (a >= 0 && std::size_t(a) >= count))
         throw Error({},
                     text("the ancestor ",
                          a,
@@ -173,8 +173,9 @@ struct ElementsThatFollow {
           list.insert(list.end(), more.begin(), more.end());
           auto const& ancestors = added.ancestors[std::size_t(kind)];
           for (std::size_t k = 0; k < more.size(); ++k)
-            come[std::size_t(kind)].push_back(ancestors.empty() ? Origin::none()
-                                                                : Origin{ancestors[k], ancestors[k], 0});
+            come[std::size_t(kind)].push_back(ancestors.empty() || ancestors[k] < 0
+                                                  ? Origin::none()
+                                                  : Origin{ancestors[k], ancestors[k], 0});
           changes = true;
         }
       });
