@@ -88,7 +88,7 @@ export async function openPage(address, { width = 1280, height = 800, ratio = 1 
     ask,
     evaluate,
     /** Until an expression is true. */
-    async until(expression, seconds = 20) {
+    async until(expression, seconds = 60) {
       const end = Date.now() + 1000 * seconds;
       while (!(await evaluate(`!!(${expression})`))) {
         if (Date.now() > end) throw new Error(`${expression} is not so after ${seconds} s\n${messages.join('\n')}`);
