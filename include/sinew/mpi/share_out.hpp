@@ -344,7 +344,7 @@ class ShareOut {
       for (TopologyView const& view : s.views) {
         TopologyChange& change = s.part.topologies.emplace_back();
         change.points = s.part.points;
-        detail::for_each_kind(view, [&](int kind, auto const& list) {
+        for_each_kind(view, [&](int kind, auto const& list) {
           std::vector<bool> stays;
           for (auto const& e : list) stays.push_back(comesBack(s, {e.data(), e.size()}));
           change.elements[std::size_t(kind)] = Renumbering::of(stays);
