@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Runs the benchmarks of a GPU, prints their tables, and writes docs/gpu.md with its plots from this one run; what was
-measured goes to a JSON file, too. It needs the programs gpu_scenes, gpu_contact and gpu_fluids and a GPU of NVIDIA."""
+measured goes to a JSON file, too. It needs the programs gpu_scenes, gpu_contact, gpu_fluids, gpu_multigrid and gpu_devices and a GPU of
+NVIDIA; with two of them it measures what several GPUs do, too. --several measures these and
+multigrid alone, and writes no page."""
 import argparse
 import pathlib
 import re
@@ -23,6 +25,10 @@ COPIES = 16384
 CONTACT = ["32 32 6", "32 32 6 --double", "16 16 1", "32 32 6 --mu 0", "32 32 6 --given"]
 PARTICLES = [10_648, 97_336, 1_000_000]
 CELLS = [64, 128, 256]
+# of gpu_multigrid, cells along a side of the cubes
+CUBES = [6, 17, 26, 55, 118]
+# of gpu_devices
+LARGE = 118
 
 
 def form_of(words):
@@ -90,8 +96,50 @@ def grid_row(text):
             "million_cells_per_second": float(found[5]), "of_copy": float(found[6]), "copy": float(found[7])}
 
 
+def multigrid_rows(text):
+    rows = []
+    for line in text.splitlines():
+        if found := re.match(r"(\d+); (\d+); (float|double); ([^;]+); ([\d.]+); ([\d.]+); ([\d.]+); (\d+); (\S+); \d+; ([\d.]+); ", line):
+            rows.append({"tetrahedra": int(found[1]), "points": int(found[2]), "real": found[3], "solver": found[4], "first": float(found[5]),
+                         "set_up": float(found[6]), "solution": float(found[7]), "iterations": int(found[8]), "residual": float(found[9]), "step": float(found[10])})
+    if {row["solver"] for row in rows} != {"multigrid", "block Jacobi"}:
+        fail(f"gpu_multigrid did not print the lines that its table knows, but:\n{text}")
+    return rows
+
+
+def devices_rows(name, text):
+    """What gpu_devices says; `devices` is 0 for the step of Simulation."""
+    rows = []
+    for line in text.splitlines():
+        if found := re.match(r"\w+; (\d+); (\d+); (float|double); ([^;]+); ([\d.]+); [\d.]+; (\S+)$", line):
+            count = re.search(r"(\d+) devices?$", found[4])
+            rows.append({"scene": name, "points": int(found[1]), "tetrahedra": int(found[2]), "real": found[3], "devices": int(count[1]) if count else 0,
+                         "steps_per_second": float(found[5]), "difference": float(found[6])})
+    if not rows:
+        fail(f"gpu_devices said nothing of {name} that its table knows, but:\n{text}")
+    return rows
+
+
+def several(build, meshes, gpus, say):
+    """The rows of multigrid, and of several GPUs where there are some."""
+    results = {"gpu-multigrid": [], "gpu-devices": []}
+    for real in ([], ["--float"]):
+        say(f"gpu_multigrid {' '.join(map(str, CUBES))} {' '.join(real)}")
+        results["gpu-multigrid"] += multigrid_rows(output(build / "gpu_multigrid", *CUBES, "--threads", 16, *real))
+    if gpus < 2:
+        del results["gpu-devices"]
+        say("there is one GPU, so that gpu_devices is not measured")
+        return results
+    for real in ([], ["--double"]):
+        for name, arguments in (("implicit Euler", f"implicit {LARGE}"), ("explicit Euler", f"explicit {LARGE}"),
+                                *((f"{COPIES:,} copies", f"copies {mesh} {COPIES}") for mesh, _, _ in meshes)):
+            say(f"gpu_devices {arguments} {' '.join(real)}")
+            results["gpu-devices"] += devices_rows(name, output(build / "gpu_devices", *arguments.split(), *real))
+    return results
+
+
 def measured(build, meshes, say):
-    """The rows of all tables of the page."""
+    """The rows of the other tables of the page."""
     results = {"gpu-scenes": [], "gpu-copies": [], "gpu-contact": [], "gpu-fluids": [], "gpu-grids": []}
     bodies = [(f"{tetrahedra:,} tetrahedra", f"fem {mesh}") for mesh, _, tetrahedra in meshes]
     scenes = SCENES[:3] + bodies + SCENES[3:]
@@ -120,8 +168,9 @@ def measured(build, meshes, say):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, prog="./dev bench --gpu")
-    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/test-gcc/gpu", help="folder of gpu_scenes, gpu_contact and gpu_fluids")
+    parser.add_argument("--build", type=pathlib.Path, default=ROOT / "build/test-gcc/gpu", help="folder of gpu_scenes and the other programs")
     parser.add_argument("--meshes", type=pathlib.Path, nargs="+", metavar="FILE", help="tetrahedral meshes (.msh) of about 600 and 1,500 tetrahedra, in place of blocks")
+    parser.add_argument("--several", action="store_true", help="prints the tables of multigrid and of several GPUs alone, and writes --json only")
     parser.add_argument("--json", type=pathlib.Path, default=pathlib.Path("out/gpu.json"))
     arguments = parser.parse_args()
     for mesh in arguments.meshes or []:
@@ -130,20 +179,28 @@ def main():
     pages.check_blocks("gpu", (pages.DOCS / "gpu.md").read_text())
     try:
         done = subprocess.run(["nvidia-smi", "--query-gpu=name,driver_version", "--format=csv,noheader"], capture_output=True, text=True)
+        gpus = len(done.stdout.splitlines())
         name, driver = done.stdout.splitlines()[0].split(", ")
     except (OSError, IndexError, ValueError):
         fail("nvidia-smi names no GPU; run this on a machine that has one of NVIDIA, with its driver")
     version = re.search(r"release ([\d.]+)", said_by("nvcc", "--version") or said_by("/usr/local/cuda/bin/nvcc", "--version"))
-    run = {"date": day(), "commit": commit(), "command": command_line(["--gpu", *sys.argv[1:]]), "machine": f"{name}, driver {driver}",
+    run = {"date": day(), "commit": commit(), "command": command_line(["--gpu", *sys.argv[1:]]), "machine": f"{name}, driver {driver}" + (f", {gpus} of them" if gpus > 1 else ""),
            "compiler": f"nvcc {version[1] if version else ''} -O3"}
     began = time.monotonic()
     with tempfile.TemporaryDirectory() as folder:
         meshes = table.meshes_of(arguments.meshes, pathlib.Path(folder))[:2]
-        results = {"run": run} | measured(arguments.build, meshes, lambda words: print(f"{time.monotonic() - began:6.0f} s  {words}", flush=True))
+        def say(words):
+            print(f"{time.monotonic() - began:6.0f} s  {words}", flush=True)
+        results = {"run": run}
+        if not arguments.several:
+            results |= measured(arguments.build, meshes, say)
+        results |= several(arguments.build, meshes, gpus, say)
     arguments.json.parent.mkdir(parents=True, exist_ok=True)
     arguments.json.write_text(pages.record(results))
-    for table_name in pages.PAGES["gpu"]:
+    for table_name in (t for t in pages.PAGES["gpu"] if results.get(pages.source(t))):
         print(f"\n{table_name}\n\n{pages.TABLES[table_name](pages.rows_of(results, table_name))}")
+    if arguments.several:
+        return
     pages.write("gpu", results)
     print(f"\nfigures written to {arguments.json}, docs/gpu.md and its plots are written")
 

@@ -341,16 +341,40 @@ def gpu_grids(rows):
     return markdown(["cells", *(f"{words}, {real}" for real in ("float", "double") for words in ("steps/s", "iterations", "million cells/s", "of a copy's bandwidth"))], lines)
 
 
+def gpu_multigrid(rows):
+    """Of each body and precision: multigrid, against conjugate gradients with diagonal blocks."""
+    lines = []
+    for tetrahedra, real in dict.fromkeys((r["tetrahedra"], r["real"]) for r in rows):
+        own, jacobi = (of(rows, tetrahedra=tetrahedra, real=real, solver=solver) for solver in ("multigrid", "block Jacobi"))
+        lines.append([f"{tetrahedra:,}", real, digits(own["first"]), digits(own["set_up"]), digits(own["solution"]), own["iterations"], digits(jacobi["solution"]),
+                      f"{jacobi['iterations']:,}", digits(jacobi["solution"] / own["solution"], 2), digits(own["step"])])
+    return markdown(["tetrahedra", "", "first set-up [ms]", "set-up [ms]", "solution [ms]", "iterations", "diagonal blocks: solution [ms]", "iterations", "times as long", "whole step [ms]"], lines)
+
+
+def gpu_devices(rows):
+    """Steps a second of one body over several GPUs, and of copies spread over them, against one."""
+    lines = []
+    for r in (r for r in rows if r["devices"] > 1):
+        alone = of(rows, scene=r["scene"], tetrahedra=r["tetrahedra"], real=r["real"], devices=1)
+        graph = of(rows, scene=r["scene"], tetrahedra=r["tetrahedra"], real=r["real"], devices=0)
+        lines.append([r["scene"], f"{r['tetrahedra']:,}", r["real"], digits(graph["steps_per_second"], 4) if graph else "-", digits(alone["steps_per_second"], 4),
+                      r["devices"], digits(r["steps_per_second"], 4), f"{r['steps_per_second'] / alone['steps_per_second']:.2f}", power(r["difference"]) if graph else "-"])
+    return markdown(["steps a second", "tetrahedra", "", "`Simulation`, as a graph", "one GPU", "GPUs", "on these", "times one", "difference of positions"], lines)
+
+
 TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roofline": roofline, "growth": growth, "threads": threads, "fluids": fluids, "portability": portability,
           "by-hand": by_hand, "vitrectomy": vitrectomy, "runtime": runtime, "families": families, "collision": collision, "compile": compiling, "contact": contact,
           "siconos": siconos, "laparoscopy": laparoscopy, "bounds": bounds, "gpu-float": gpu_float, "gpu-double": gpu_double, "gpu-iterations": gpu_iterations,
-          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids, "gpu-grids": gpu_grids, "multigrid": multigrid, "multigrid-steps": multigrid_steps}
+          "gpu-copies": gpu_copies, "gpu-contact": gpu_contact, "gpu-fluids": gpu_fluids, "gpu-grids": gpu_grids, "gpu-multigrid": gpu_multigrid,
+          "gpu-devices": gpu_devices, "multigrid": multigrid, "multigrid-steps": multigrid_steps}
 # rows that two tables are made of
 SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes", "multigrid-steps": "multigrid"}
 # the tables of each page; all of them are of one run
 PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
          "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"], "multigrid": ["multigrid", "multigrid-steps"],
-         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids", "gpu-grids"]}
+         "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids", "gpu-grids", "gpu-multigrid", "gpu-devices"]}
+# tables that a run may lack, and what their place on the page says then
+LACKING = {"gpu-multigrid": "The run of this page has not measured it.", "gpu-devices": "The run of this page has not measured it: it needs two GPUs."}
 
 
 def source(table):
@@ -406,12 +430,14 @@ def check_blocks(name, text):
 def written(name, text, results):
     """The page with its tables and its line of the run from these results."""
     check_blocks(name, text)
-    missing = [table for table in PAGES[name] if not results.get(source(table))]
+    missing = [table for table in PAGES[name] if not results.get(source(table)) and table not in LACKING]
     if missing:
         fail(f"docs/{name}.md: {', '.join(missing)} was not measured; a page is of one run, so that all of its tables are measured together")
 
     def block(match):
         table = match[1]
+        if table in LACKING and not results.get(source(table)):
+            return f"{match[0].splitlines()[0]}\n\n{LACKING[table]}\n\n<!-- end -->"
         made = TABLES[table](rows_of(results, table)) if table else run_line(results["run"])
         return f"{match[0].splitlines()[0]}\n\n{made}\n\n<!-- end -->"
     return BLOCK.sub(block, text)

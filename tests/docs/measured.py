@@ -100,6 +100,16 @@ def gpu_output():
     check((row["contacts"], row["steps_per_second"], row["iterations"], row["forces"]) == (1024, 1203, 44, 9e-5), f"contacts: {row}")
     row = gpu.fluid_row("1000000; float; graph; 672.1; 0.00149; front at 1.064 m after 0.014 s\n")
     check(row == {"particles": 1000000, "real": "float", "form": "graph", "steps_per_second": 672.1}, f"fluids: {row}")
+    rows = gpu.multigrid_rows("# level of 5832\n29478; 5832; double; multigrid; 50.1; 0.700; 0.750; 14; 8e-07; 3; 2.100; # scene made in 90 ms\n"
+                              "29478; 5832; double; block Jacobi; 0.0; 0.100; 15.000; 518; 9e-07; 0; 16.200; # scene made in 90 ms\n")
+    check(rows[0] | {"solver": ""} == {"tetrahedra": 29478, "points": 5832, "real": "double", "solver": "", "first": 50.1, "set_up": 0.7, "solution": 0.75, "iterations": 14,
+                                       "residual": 8e-7, "step": 2.1} and rows[1]["iterations"] == 518, f"multigrid: {rows}")
+    rows = gpu.devices_rows("implicit Euler", "# 2 parts made in 3.0 s\nimplicit; 1685159; 9858192; float; 1 device; 76.00; 1.000; 0.0e+00\n"
+                            "implicit; 1685159; 9858192; float; 2 devices; 139.00; 1.829; 1.8e-07\nimplicit; 1685159; 9858192; float; Simulation, as a graph; 76.50; 1.007; 0.0e+00\n")
+    rows += gpu.devices_rows("copies", "copies; 181; 596; double; 16384 copies, 2 devices; 1480000; 1.970; 0\n")
+    check([(row["devices"], row["steps_per_second"]) for row in rows] == [(1, 76), (2, 139), (0, 76.5), (2, 1480000)] and rows[1]["difference"] == 1.8e-7, f"devices: {rows}")
+    refused(lambda: gpu.multigrid_rows("nothing\n"), "gpu_multigrid")
+    refused(lambda: gpu.devices_rows("copies", "nothing\n"), "gpu_devices said nothing of copies")
     refused(lambda: gpu.fluid_row("nothing\n"), "gpu_fluids")
     refused(lambda: gpu.scene_rows("grid", "nothing\n"), "gpu_scenes said nothing of grid")
 

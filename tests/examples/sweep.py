@@ -7,6 +7,7 @@ import json
 import math
 import os
 import pathlib
+import re
 import resource
 import shutil
 import signal
@@ -209,6 +210,59 @@ sinew("sweep", "--set", "root.dt=1", "--output", "mixed.csv", "--merge", "merged
 sinew("sweep", "--merge", "none.csv", "--output", "mixed.csv", status=1, error="none.csv")
 sinew("sweep", "--merge", "merged.csv", "--output", "times.csv", status=1, error="times.csv: is no table of a sweep")
 check(not os.path.exists("mixed.csv"), "a table of two sweeps was written")
+
+# job arrays: what Slurm and Grid Engine tell the jobs of an array, and what these do when they are killed and put into the queue again
+
+
+def submit(script, killed=()):
+    """What sbatch and qsub do with a job array: each job runs the script, with the numbers of the array in its environment. Those in
+    `killed` reach their limit of time, and run again when the others have ended."""
+    text = pathlib.Path(script).read_text()
+    slurm = re.search(r"^#SBATCH .*--array=(\S+)", text, flags=re.M)
+    words = (slurm or re.search(r"^#\$ .*-t (\S+)", text, flags=re.M))[1]
+    tasks = []
+    for piece in words.partition("%")[0].split(","):
+        first, last, step = re.fullmatch(r"(\d+)(?:-(\d+)(?::(\d+))?)?", piece).groups()
+        tasks += range(int(first), int(last or first) + 1, int(step or 1))
+    step = tasks[1] - tasks[0] if len(tasks) > 1 and "," not in words else 1
+    names = (("SLURM_ARRAY_TASK_MIN", tasks[0]), ("SLURM_ARRAY_TASK_MAX", tasks[-1]), ("SLURM_ARRAY_TASK_STEP", step), ("SLURM_ARRAY_TASK_COUNT", len(tasks)),
+             ("SLURM_CPUS_PER_TASK", 2)) if slurm else (("SGE_TASK_FIRST", tasks[0]), ("SGE_TASK_LAST", tasks[-1]), ("SGE_TASK_STEPSIZE", step), ("NSLOTS", 2))
+    queue, ended = [(task, task in killed) for task in tasks], {}
+    while queue:
+        task, dies = queue.pop(0)
+        environment = os.environ | {name: str(value) for name, value in names} | {"SLURM_ARRAY_TASK_ID" if slurm else "SGE_TASK_ID": str(task),
+                                                                                  "PATH": f"{os.path.dirname(program)}:{os.environ['PATH']}"}
+        job = subprocess.Popen(["bash", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=environment, start_new_session=True)
+        if dies:
+            part = pathlib.Path(f"jobs.sweep.{tasks.index(task) + 1}of{len(tasks)}.csv")
+            end = time.monotonic() + 60
+            while count_lines(part) < 3 and job.poll() is None and time.monotonic() < end:
+                time.sleep(0.002)
+            os.killpg(job.pid, signal.SIGKILL)
+            queue.append((task, False))
+        out, errors = job.communicate()
+        check(not dies or job.returncode == -signal.SIGKILL, f"job {task} had ended before it was killed: {out}{errors}")
+        ended[task] = job.returncode, out + errors
+    return ended
+
+
+shutil.copy("oscillator.scn", "jobs.scn")
+jobs = ["sweep", "jobs.scn", "--set", "body/spring.stiffness=1:12", "--steps", 150000]
+sinew(*jobs, "--output", "all_jobs.csv", "--quiet")
+for head, jobs_each, killed in (("#SBATCH --array=1-4%2 --requeue", "$SLURM_CPUS_PER_TASK", (2,)), ("#SBATCH --array=0-9:3", "$SLURM_CPUS_PER_TASK", ()),
+                                ("#$ -t 1-4 -cwd", "$NSLOTS", ()), ("#$ -t 2-8:2 -r y -cwd", "$NSLOTS", (6,))):
+    pathlib.Path("job.sh").write_text(f"#!/bin/bash\n{head}\nexec sinew {' '.join(map(str, jobs))} --part array --jobs {jobs_each} --quiet\n")
+    for part in range(1, 5):
+        pathlib.Path(f"jobs.sweep.{part}of4.csv").unlink(missing_ok=True)
+    ended = submit("job.sh", killed)
+    check(all(status == 0 for status, _ in ended.values()), f"{head}: {ended}")
+    check([len(rows(f"jobs.sweep.{part}of4.csv")) for part in range(1, 5)] == [3, 3, 3, 3], f"{head}: a job has done another part")
+    sinew("sweep", "--merge", *(f"jobs.sweep.{part}of4.csv" for part in range(1, 5)), "--output", "jobs_merged.csv", "--quiet")
+    check(rows("jobs_merged.csv") == rows("all_jobs.csv"), f"{head}: the parts are another table than the whole")
+pathlib.Path("job.sh").write_text(f"#!/bin/bash\n#SBATCH --array=1,3,7\nexec sinew {' '.join(map(str, jobs))} --part array\n")
+check(all(status == 2 and "no range from first to last" in said for status, said in submit("job.sh").values()), "a job array that is no range is not refused")
+sinew(*jobs, "--part", "array", status=2, error="there is none here", env={name: value for name, value in os.environ.items() if not name.startswith(("SLURM", "SGE"))})
+sinew(*jobs, "--part", "array", status=2, error="there is none here", env=os.environ | {"SGE_TASK_ID": "undefined", "SGE_TASK_FIRST": "undefined", "SGE_TASK_LAST": "undefined"})
 
 # files that a scene writes, of each run in a folder of its own
 pathlib.Path("writes.scn").write_text(OSCILLATOR.replace("  </Node>", '    <WriteState filename="out/states.txt"/>\n  </Node>'))
