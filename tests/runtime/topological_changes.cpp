@@ -346,4 +346,27 @@ TEST_CASE("a file cuts triangles along a path") {
   CHECK(area == Approx(6));
 }
 
+TEST_CASE("elements of a scene file are refined while it runs") {
+  Scene scene = scene_of(strip(""));
+  scene.init();
+  scene.animate(0.01);
+  scene.refineElements("strip", {.triangles = {0, 11}});
+  auto const& strip = *scene.root().find_node("strip");
+  auto const& state = *strip.get<MechanicalObject<Vec3d>>();
+  // four for each, and two for a neighbour
+  CHECK(strip.get<MeshTopology>()->triangles.size() == 12 + 2 * 3 + 2);
+  CHECK(state.size() == 14 + 6);
+  CHECK(strip.get<FixedConstraint<Vec3d>>()->indices.size() == 3);  // and the middle of the edge that is held
+  double area = 0;
+  for (Triangle const& t : strip.get<MeshTopology>()->triangles) {
+    auto at = [&](std::size_t k) { return state.restPosition[std::size_t(t[k])]; };
+    area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+  }
+  CHECK(area == Approx(6).epsilon(1e-14));
+  for (int i = 0; i < 20; ++i) scene.animate(0.01);
+  CHECK(state.position[13].z() < -1e-3);
+  CHECK_THROWS_WITH(scene.refineElements("strip", {.triangles = {-5}}),
+                    Catch::Contains("there is no triangle -5 to refine"));
+}
+
 }  // namespace test_topological_changes
