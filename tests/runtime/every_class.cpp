@@ -44,8 +44,11 @@ std::string scene_of(ClassInfo const& info) {
   if (info.role == RoleKind::mapping) {
     std::string const place = state(info.out);
     if (!info.in2.empty())
-      return node("above", state(info.in)) + node("second", state(info.in2)) +
-             node("place", place + element(info.name, given + " input1=\"@../above\" input2=\"@../second\""));
+      return node(
+          "scene",
+          node("above", state(info.in)) + node("second", state(info.in2)) +
+              node("place",
+                   place + element(info.name, given + " input1=\"@../above\" input2=\"@../second\"")));
     std::string const input = info.severalParents ? " input=\"@..\"" : "";
     return node("above", state(info.in) + node("place", place + element(info.name, given + input)));
   }
