@@ -188,6 +188,7 @@ TEST_CASE("a rod that hangs on a point with several parents swings as on the poi
                      SubsetMultiMapping<Vec3d, Vec3d, Parents<"../end", "../tip">>{.indexPairs = {{0, 0}}}));
   direct.init();
   joined.init();
+  double lowest = 0;
   for (int i = 0; i < 200; ++i) {
     direct.animate(0.01);
     joined.animate(0.01);
@@ -195,8 +196,9 @@ TEST_CASE("a rod that hangs on a point with several parents swings as on the poi
     auto const& b = joined.at<"rod">().state();
     CHECK((a.position[0].center - b.position[0].center).norm() < 1e-9);
     CHECK((a.velocity[0] - b.velocity[0]).norm() < 1e-7);
+    lowest = std::min(lowest, a.position[0].center[2]);
   }
-  CHECK(direct.at<"rod/tip">().state().position[0][2] < -0.1);
+  CHECK(lowest < -0.5);
 }
 
 }  // namespace test_mapped_constraints

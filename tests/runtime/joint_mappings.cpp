@@ -68,7 +68,7 @@ TEST_CASE("mappings of several parents run from files, with and without matrix, 
   auto place = [](auto const& s, std::size_t i) {
     using D = typename std::decay_t<decltype(s)>::DataTypes;
     Eigen::Vector3d x = Eigen::Vector3d::Zero();
-    x.template head<D::spatial>() = D::center(s.position[i]);
+    x.template head<D::spatial>() = D::center(s.position[i]).template cast<double>();
     return x;
   };
   each_state(assembled, [&](auto const& s, std::string const& path) {
