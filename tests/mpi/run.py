@@ -11,6 +11,7 @@ import csv
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -226,16 +227,20 @@ for name, content in (("version", bytes_of.replace(version, b"9" + version[1:]))
     one_is_different(1, ["rank 1 of 2: the program: this is Sinew " + ("9" if name == "version" else ""), "rank 0 runs another version or build; start the same program"],
                      [scene], [scene], programs=(program, str(other_program)))
 
-# out of memory on one rank: what a small scene needs it has, what a large one needs not
+# out of memory on one rank, while it makes a large scene: from there on it gets no more
 
 
-def most_memory(path):
-    """Of one rank, in address space [kB]."""
+def memory(pid, what):
+    """Of a process [kB]: VmSize, its addresses; VmRSS, what it has now; VmHWM, the most that it had."""
+    return int(re.search(rf"{what}:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text()).group(1))
+
+
+def needs(path):
     saved = f"{folder}/memory.scn"
     pathlib.Path(saved).unlink(missing_ok=True)
     process = begin(2, program, "run", path, "--mpi", "--steps", 1000000, "--save", saved, "--save-every", 2)
     wait_for(lambda: steps_in(saved) >= 2)
-    most = int(re.search(r"VmPeak:\s+(\d+)", pathlib.Path(f"/proc/{ranks_of(process)[1]}/status").read_text()).group(1))
+    most = memory(ranks_of(process)[1], "VmHWM")
     process.send_signal(signal.SIGTERM)
     process.communicate(timeout=60)
     return most
@@ -243,11 +248,17 @@ def most_memory(path):
 
 large = pathlib.Path(folder) / "large.scn"
 large.write_text(scenes.large())
-small_needs, large_needs = most_memory(scene), most_memory(large)
-assert large_needs > small_needs + 40000, f"{small_needs} and {large_needs} kB"
-status, _, said = call([*start, "1", program, "run", str(large), "--mpi", ":", "-n", "1", "sh", "-c",
-                        f"ulimit -v {(small_needs + large_needs) // 2}; exec {program} run {large} --mpi"])
-assert status == 1 and said.count("rank 1 of 2: out of memory") == 1 and said.count("\n") < 12, f"status {status}: {said}"
+small_needs, large_needs = needs(scene), needs(large)
+assert large_needs > small_needs + 15000, f"{small_needs} and {large_needs} kB"
+process = begin(2, program, "run", large, "--mpi", "--steps", 100000)
+wait_for(lambda: len(ranks_of(process)) == 2)
+second = ranks_of(process)[1]
+while memory(second, "VmRSS") < (2 * small_needs + large_needs) / 3:
+    time.sleep(0.001)
+limit = memory(second, "VmSize") * 1024
+resource.prlimit(second, resource.RLIMIT_AS, (limit, limit))
+_, error = process.communicate(timeout=120)
+assert process.returncode == 1 and error.count("rank 1 of 2: out of memory; take more ranks on more machines, or fewer on one") == 1, f"status {process.returncode}: {error}"
 
 # the runs of a sweep
 sinew = pathlib.Path(program).parent / "sinew"
