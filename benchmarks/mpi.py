@@ -10,9 +10,11 @@ and in how many bytes (B), and how many sums over all ranks there were (S). So a
 
   T = max over ranks of W + (E + S l(n)) t + B / b
 
-where t is the time of a message between two processes, l(n) = ceil(log2 n) how often a sum waits for one, and b the bytes a second between
-them; t and b are measured here by mpirun with two ranks, between processes of one machine. What a network has instead is to be put in
-by --latency and --bandwidth. W of more ranks than there are here is that of a part of the same number of points, and B that of its surface:
+where t is the time of a message between two processes, l(n) = ceil(log2 n) how often a sum waits for one, and b the bytes a second that a
+rank sends while it receives as many; t and b are measured here by mpirun with two ranks, between processes of one machine: t as the shortest
+of 500 sums, b as the shortest of 50 messages of 1 MB. What a network has instead is to be put in by --latency and --bandwidth. W of more
+ranks than there are here is that of a part of the same number of points, and B that of its surface; strong scaling is that of a body of
+--points, since a part of the block measured would be a few points:
   W = w points,  B = B(2) (points of a part / points of a part with 2 ranks)^(2/3) times its neighbours, six sides for two ranks' one
 """
 import argparse
@@ -55,11 +57,11 @@ def profile(arguments, path, ranks):
         words = line.split()
         if len(words) == 10 and words[-1] == "%":
             lines.append(dict(zip(("rank", "points", "ghosts", "exchanges", "messages", "bytes", "sums", "work", "waiting"), map(float, words[:9]))))
-    sum_us = float(re.search(r"a sum over all ranks takes (\S+) us", done.stdout).group(1))
+    sum_us, megabyte_us = map(float, re.search(r"a sum over all ranks takes (\S+) us, and 1 MB to the next rank (\S+) us", done.stdout).groups())
     wall = 1e3 * float(re.search(r"steps of \S+ s in (\S+) s", done.stdout).group(1)) / arguments.steps
     return {"ranks": ranks, "work": max(l["work"] for l in lines), "points": sum(l["points"] for l in lines),
             "ghosts": max(l["ghosts"] for l in lines), "exchanges": lines[0]["exchanges"], "bytes": max(l["bytes"] for l in lines),
-            "sums": lines[0]["sums"], "sum_us": sum_us, "wall": wall}
+            "sums": lines[0]["sums"], "sum_us": sum_us, "bandwidth": 1e12 / megabyte_us, "wall": wall}
 
 
 def modelled(one, two, ranks, points, latency, bandwidth):
@@ -82,7 +84,8 @@ def main():
     parser.add_argument("--cells", type=int, default=24, help="along each side of the block")
     parser.add_argument("--steps", type=int, default=5)
     parser.add_argument("--latency", type=float, help="of a message [us]; measured here unless it is given")
-    parser.add_argument("--bandwidth", type=float, default=1e9, help="bytes a second between two ranks")
+    parser.add_argument("--bandwidth", type=float, help="bytes a second between two ranks; measured here unless it is given")
+    parser.add_argument("--points", type=float, default=1e8, help="of the body whose strong scaling is modelled")
     parser.add_argument("--table", help="file for the numbers (JSON)")
     arguments = parser.parse_args()
     counts = [int(n) for n in arguments.ranks.split(",")]
@@ -105,18 +108,20 @@ def main():
             print(f"| {name} | {r['ranks']} | {r['points']:.0f} | {r['ghosts']:.0f} | {r['work']:.1f} | {efficiency:.2f} | {r['exchanges']:.0f} | "
                   f"{r['sums']:.0f} | {r['bytes'] / 1e3:.0f} |")
     latency = arguments.latency or strong[-1]["sum_us"]
+    bandwidth = arguments.bandwidth or strong[-1]["bandwidth"]
+    model = []
     if len(counts) > 1:
-        print(f"\nA message takes {latency:.2g} us, a second has room for {arguments.bandwidth:.3g} bytes. By the model:\n")
-        print("| ranks | strong [ms] | speedup | weak [ms] | efficiency |\n| --- | --- | --- | --- | --- |")
-        base = sum(modelled(strong[0], strong[1], 1, strong[0]["points"], latency, arguments.bandwidth))
-        one = sum(modelled(weak[0], weak[1], 1, weak[0]["points"], latency, arguments.bandwidth))
-        for ranks in (1, 2, 4, 8, 16, 64, 256):
-            s = sum(modelled(strong[0], strong[1], ranks, strong[0]["points"], latency, arguments.bandwidth))
-            w = sum(modelled(weak[0], weak[1], ranks, weak[0]["points"] * ranks, latency, arguments.bandwidth))
-            print(f"| {ranks} | {s:.3g} | {base / s:.3g} | {w:.3g} | {one / w:.2f} |")
+        print(f"\nA message takes {latency:.2g} us, a second has room for {bandwidth:.3g} bytes. By the model:\n")
+        print(f"| ranks | {arguments.points:.3g} points [ms] | speedup | weak [ms] | efficiency |\n| --- | --- | --- | --- | --- |")
+        base = sum(modelled(strong[0], strong[1], 1, arguments.points, latency, bandwidth))
+        one = sum(modelled(weak[0], weak[1], 1, weak[0]["points"], latency, bandwidth))
+        for ranks in (1, 2, 4, 8, 16, 100, 1000, 10000):
+            s = sum(modelled(strong[0], strong[1], ranks, arguments.points, latency, bandwidth))
+            w = sum(modelled(weak[0], weak[1], ranks, weak[0]["points"] * ranks, latency, bandwidth))
+            model.append({"ranks": ranks, "strong": s, "weak": w})
+            print(f"| {ranks:,} | {s:.3g} | {base / s:.3g} | {w:.3g} | {one / w:.2f} |")
     if arguments.table:
-        pathlib.Path(arguments.table).write_text(json.dumps({"strong": strong, "weak": weak, "latency": latency,
-                                                             "bandwidth": arguments.bandwidth}, indent=1) + "\n")
+        pathlib.Path(arguments.table).write_text(json.dumps({"strong": strong, "weak": weak, "model": model, "latency": latency, "bandwidth": bandwidth}, indent=1) + "\n")
 
 
 if __name__ == "__main__":

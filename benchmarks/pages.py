@@ -109,7 +109,7 @@ def accuracy(rows):
     return markdown(["ms a step (iterations)", *(f"{tetrahedra:,} tetrahedra, {young / 1e3:g} kPa" for tetrahedra, young in bodies)], lines)
 
 
-LINEAR = {"sinew": "multigrid", "sinew-pattern-kept": "multigrid, pattern kept", "cholmod": "CHOLMOD", "hypre": "BoomerAMG", "hypre-nodal": "BoomerAMG, nodal", "petsc": "GAMG"}
+LINEAR = {"sinew": "multigrid", "sinew-pattern-kept": "multigrid, pattern kept", "cholmod": "CHOLMOD", "hypre": "BoomerAMG", "hypre-nodal": "BoomerAMG, nodal", "petsc": "GAMG", "ml": "ML"}
 BODIES = {"plain": "", "contrast": ", layers 1e4", "incompressible": ", nu 0.49"}
 
 
@@ -125,15 +125,16 @@ def linear_row(rows, key, solver):
 def multigrid(rows):
     """Set-up and solution [ms], iterations; and of the best BoomerAMG how often multigrid goes into it."""
     lines = []
+    solvers = {solver: name for solver, name in LINEAR.items() if solver != "ml" or of(rows, solver="ml")}
     for key, name in linear_bodies(rows).items():
         line = [name]
-        for solver in LINEAR:
+        for solver in solvers:
             row = linear_row(rows, key, solver)
             line.append(f"{digits(1e3 * row['set_up'])} + {digits(1e3 * row['solve'])} ({row['iterations']})" if row else "-")
-        whole = {solver: row["set_up"] + row["solve"] for solver in LINEAR if (row := linear_row(rows, key, solver))}
+        whole = {solver: row["set_up"] + row["solve"] for solver in solvers if (row := linear_row(rows, key, solver))}
         others = [whole[solver] for solver in ("hypre", "hypre-nodal") if solver in whole]
         lines.append([*line, f"{min(others) / whole['sinew']:.1f}" if others else "-"])
-    return markdown(["tetrahedra", *LINEAR.values(), "times BoomerAMG"], lines)
+    return markdown(["tetrahedra", *solvers.values(), "times BoomerAMG"], lines)
 
 
 def multigrid_steps(rows):

@@ -2,9 +2,9 @@
 // Seconds to |b - A x| = 1e-6 |b| over one assembled matrix by multigrid and, where they are installed, by
 // CHOLMOD, hypre and PETSc: linear CELLS ROUNDS KIND, of a cube of CELLS^3 cells of six tetrahedra, or of a
 // mesh file in the place of CELLS; KIND is plain, incompressible (Poisson's ratio 0.49) or contrast (layers
-// 10,000 times as stiff). They take turns. Prints the size, then a line a solver: name, seconds of the
-// set-up, of the solution, iterations, residual; and steps a second with multigrid made anew in each step,
-// and in each tenth.
+// 10,000 times as stiff); DEGREE is that of the smoother. They take turns. Prints the size, then a line a
+// solver: name, seconds of the set-up, of the solution, iterations, residual; and steps a second with
+// multigrid made anew in each step, and in each tenth.
 #include "bodies.hpp"
 #include "linear_system.hpp"
 
@@ -111,7 +111,8 @@ void run(Mesh const& mesh, Kind const& kind, int rounds) {
   choices.push_back({"hypre-nodal", [&] { return solve_by_hypre(system, true); }});
 #endif
 #ifdef BENCH_PETSC
-  choices.push_back({"petsc", [&] { return solve_by_petsc(system); }});
+  choices.push_back({"petsc", [&] { return solve_by_petsc(system, "gamg"); }});
+  choices.push_back({"ml", [&] { return solve_by_petsc(system, "ml"); }});
 #endif
   for (int r = 0; r < rounds; ++r)
     for (Choice& c : choices) {
@@ -150,14 +151,15 @@ void run(Mesh const& mesh, Kind const& kind, int rounds) {
 }  // namespace
 
 int main(int argc, char** argv) try {
-  if (argc != 4) {
-    std::fprintf(stderr, "usage: linear CELLS|MESH ROUNDS plain|incompressible|contrast\n");
+  if (argc != 4 && argc != 5) {
+    std::fprintf(stderr, "usage: linear CELLS|MESH ROUNDS plain|incompressible|contrast [DEGREE]\n");
     return 2;
   }
   const std::string what = argv[1];
   const Mesh mesh = what.ends_with(".msh") ? io::read_mesh(argv[1]) : block(whole_number(argv[1]));
-  for (Kind const& kind : kinds)
+  for (Kind kind : kinds)
     if (kind.name == argv[3]) {
+      if (argc == 5) kind.degree = whole_number(argv[4]);
       run(mesh, kind, whole_number(argv[2]));
       return 0;
     }

@@ -8,7 +8,7 @@
 
 namespace bench {
 
-LinearResult solve_by_petsc(LinearSystem const& s) {
+LinearResult solve_by_petsc(LinearSystem const& s, char const* preconditioner) {
   PetscBool running = PETSC_FALSE;
   PetscInitialized(&running);
   if (!running) PetscInitializeNoArguments();
@@ -30,7 +30,7 @@ LinearResult solve_by_petsc(LinearSystem const& s) {
   Mat a;
   MatCreate(PETSC_COMM_SELF, &a);
   MatSetSizes(a, n, n, n, n);
-  MatSetType(a, MATSEQAIJ);  // what GAMG is quickest with
+  MatSetType(a, MATSEQAIJ);  // what GAMG is quickest with, and ML asks for
   MatSetBlockSize(a, 3);
   MatSeqAIJSetPreallocationCSR(a, s.starts.data(), s.columns.data(), s.values.data());
   MatSetOption(a, MAT_SPD, PETSC_TRUE);
@@ -58,7 +58,7 @@ LinearResult solve_by_petsc(LinearSystem const& s) {
   KSPSetNormType(solver, KSP_NORM_UNPRECONDITIONED);
   KSPSetTolerances(solver, linearTolerance, 0, PETSC_DEFAULT, 2000);
   KSPGetPC(solver, &cycle);
-  PCSetType(cycle, PCGAMG);
+  PCSetType(cycle, preconditioner);
   result.setUp = processor_seconds([&] { KSPSetUp(solver); });
   result.solve = processor_seconds([&] { KSPSolve(solver, b, x); });
   PetscInt iterations = 0;

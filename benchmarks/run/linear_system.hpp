@@ -26,7 +26,8 @@ LinearResult solve_by_cholmod(LinearSystem const& system);
 /// Conjugate gradients with BoomerAMG, which sees three functions. `nodal`: coarse points are chosen by
 /// points, else by unknowns.
 LinearResult solve_by_hypre(LinearSystem const& system, bool nodal);
-/// Conjugate gradients with GAMG, smoothed aggregation with rigid motions.
-LinearResult solve_by_petsc(LinearSystem const& system);
+/// Conjugate gradients with one of PETSc's preconditioners by smoothed aggregation with rigid motions: its
+/// own, gamg, or Trilinos' ml, which came before MueLu.
+LinearResult solve_by_petsc(LinearSystem const& system, char const* preconditioner);
 
 }  // namespace bench

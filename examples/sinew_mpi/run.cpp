@@ -3,6 +3,7 @@
 
 #include <sinew/io/pvd_series.hpp>
 #include <sinew/mpi/registry.hpp>
+#include <sinew/mpi/same_on_all.hpp>
 #include <sinew/runtime/save_scene.hpp>
 
 #include <unistd.h>
@@ -180,13 +181,29 @@ class Effort {
                for (const Index i : halo.numbers)
                  ++(halo.parts[std::size_t(i)] == ranks.rank() ? points : ghosts);
              }));
-    // the shortest of many sums over all ranks
-    double latency = 1e9;
-    ranks.collectively("the latency of a sum", [&] {
-      for (int i = 0; i < 500; ++i) {
-        const double begin = MPI_Wtime();
-        ranks.sum(1);
-        latency = std::min(latency, MPI_Wtime() - begin);
+    // the shortest of many sums over all ranks, and of many messages to the next one
+    double latency = 1e9, message = 1e9;
+    const int next = (ranks.rank() + 1) % ranks.size(),
+              before = (ranks.rank() + ranks.size() - 1) % ranks.size();
+    auto out = std::make_unique<std::vector<char>>(megabyte),
+         in = std::make_unique<std::vector<char>>(megabyte);
+    ranks.collectively("the time of messages", [&] {
+      try {
+        for (int i = 0; i < 500; ++i) {
+          const double begin = MPI_Wtime();
+          ranks.sum(1);
+          latency = std::min(latency, MPI_Wtime() - begin);
+        }
+        for (int i = 0; i < 50; ++i) {
+          const double begin = MPI_Wtime();
+          MPI_Request both[] = {ranks.receive(before, in->data(), megabyte),
+                                ranks.send(next, out->data(), megabyte)};
+          ranks.wait(both, "a megabyte from the rank before");
+          message = std::min(message, MPI_Wtime() - begin);
+        }
+      } catch (...) {
+        mpi::keep(std::move(out)), mpi::keep(std::move(in));  // messages may be under way
+        throw;
       }
     });
     std::vector<Line> all;
@@ -199,7 +216,8 @@ class Effort {
                                             n[sums] / steps,
                                             n[work] / steps,
                                             n[waited] / seconds,
-                                            latency}},
+                                            latency,
+                                            message}},
                          std::vector<std::size_t>(std::size_t(ranks.size()), 1),
                          "the profile of all ranks");
     });
@@ -219,13 +237,17 @@ class Effort {
                   1e3 * l[6],
                   100 * l[7]);
     }
-    std::printf("a sum over all ranks takes %.3g us\n", 1e6 * all[0][8]);
+    for (Line const& l : all) message = std::max(message, l[9]);
+    std::printf("a sum over all ranks takes %.3g us, and 1 MB to the next rank %.3g us\n",
+                1e6 * all[0][8],
+                1e6 * message);
   }
 
  private:
   enum { exchanges, messages, bytes, sums, work, waited };
   using Numbers = std::array<double, 6>;
-  using Line = std::array<double, 9>;
+  using Line = std::array<double, 10>;
+  static constexpr std::size_t megabyte = 1000000;
   Numbers start_;
 
   template <class Simulation>
@@ -249,6 +271,9 @@ int run_on_ranks(RunOptions const& options, std::shared_ptr<mpi::Communicator> c
   status = badScene;
   std::optional<ReadScene<mpi::Distributable>> read;
   ranks->collectively("the scene file", [&] {
+    mpi::same_program_on_all(*ranks);
+    mpi::same_file_on_all(*ranks, options.scene.path);
+    const mpi::ReadTogether together(*ranks);
     try {
       read.emplace(read_scene<mpi::Distributable>(
           options.scene.path,

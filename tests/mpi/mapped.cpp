@@ -34,6 +34,10 @@ TEST_CASE("what is mapped from a body in parts pulls it as in one process, and t
     CHECK(whole->state().velocity == w);
     CHECK(hana::at_c<0>(whole->children).state().position == places);
   }
+  const auto energies = many.energies();
+  CHECK(energies.kinetic == Approx(one.kineticEnergy()).epsilon(1e-10));
+  CHECK(energies.potential == Approx(one.potentialEnergy()).epsilon(1e-10));
+  CHECK(energies.kinetic > 0);
 }
 
 }  // namespace test_mapped

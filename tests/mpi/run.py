@@ -11,6 +11,7 @@ import csv
 import os
 import pathlib
 import re
+import resource
 import shutil
 import signal
 import subprocess
@@ -174,9 +175,90 @@ refused(2, 4, ["/no/such/folder/x.scn"], scene, "--steps", "1", "--save", "/no/s
 # a file that one rank alone sees, and one that has another content
 with_other = pathlib.Path(folder) / "other.scn"
 with_other.write_text(pathlib.Path(scene).read_text().replace('0.5 0 0 ', '0.6 0 0 ', 1))
-for second, word in ("seen_by_none.scn", "rank 1 of 2: "), (str(with_other), "not those of rank 0"):
-    status, _, said = call([*start, "1", program, "run", scene, "--mpi", ":", "-n", "1", program, "run", second, "--mpi"])
-    assert status == 1 and said.count(word) == 1, said
+
+
+def one_is_different(status, words, first, second, *options, programs=(program, program)):
+    """Two ranks with another scene, folder of data or program each: one sentence, and all end, at once."""
+    began = time.time()
+    result, _, said = call([*start, "1", *programs[0:1], "run", *map(str, first), *options, "--mpi", ":",
+                            "-n", "1", *programs[1:], "run", *map(str, second), *options, "--mpi"])
+    assert result == status, f"status {result}, not {status}: {said}"
+    for word in words:
+        assert said.count(word) == 1, f"'{word}' should be said once: {said}"
+    assert time.time() - began < 200, "it has waited for its patience"
+
+
+one_is_different(1, ["rank 1 of 2: ", "seen_by_none.scn"], [scene], ["seen_by_none.scn"])
+one_is_different(1, ["rank 1 of 2: ", "not that of rank 0"], [scene], [with_other])
+
+# meshes that ranks read each a part of: the same as one process, and what is wrong with them
+meshes = [pathlib.Path(folder) / f"data{i}" for i in range(3)]
+for i, there in enumerate(meshes):
+    there.mkdir()
+    if i < 2:
+        (there / "bar.msh").write_text(scenes.gmsh((9, 3, 3), (0, 0, 0), (4 + i, 1, 1)))
+loaded = pathlib.Path(folder) / "loaded.scn"
+loaded.write_text(scenes.loaded("bar.msh"))
+ends = []
+for ranks in 1, 3:
+    out = f"{folder}/loaded{ranks}.scn"
+    well(ranks, loaded, "--data", meshes[0], "--steps", 3, "--save", out)
+    ends.append([float(x) for x in re.search(r'<MechanicalObject name="[^"]*" template="Vec3d" position="([^"]*)"', pathlib.Path(out).read_text()).group(1).split()])
+assert len(ends[0]) == 3 * 81 and max(abs(a - b) for a, b in zip(*ends)) < 1e-8, "a mesh that ranks have read together is another one"
+one_is_different(1, ["rank 1 of 2: ", "bar.msh", "<MeshGmshLoader>"], [loaded, "--data", meshes[0]], [loaded, "--data", meshes[2]])
+one_is_different(1, ["rank 1 of 2: ", "bar.msh: is another file on this rank"], [loaded, "--data", meshes[0]], [loaded, "--data", meshes[1]])
+# more ranks than elements
+few = pathlib.Path(folder) / "few.scn"
+few.write_text(scenes.scene("0 -9.81 0", 0.01, """
+  <Node name="bar"><EulerImplicitSolver/><CGLinearSolver/><MeshTopology position="0 0 0  1 0 0  0 1 0  0 0 1  1 1 1" tetrahedra="0 1 2 3  1 2 3 4"/>
+    <MechanicalObject/><UniformMass totalMass="1"/><TetrahedronFEMForceField youngModulus="1e3" poissonRatio="0.3"/></Node>
+"""))
+refused(3, 1, ["/root/bar: 5 points with 2 elements cannot be shared out among 3 ranks; take fewer ranks (mpirun -n)"], few, "--steps", "1")
+
+# another version of the program on a rank
+bytes_of = pathlib.Path(program).read_bytes()
+header = (pathlib.Path(__file__).resolve().parents[2] / "include/sinew/version.hpp").read_text()
+version = ".".join(re.findall(r"#define SINEW_VERSION_(?:MAJOR|MINOR|PATCH) (\d+)", header)).encode() + b"\0"
+for name, content in (("version", bytes_of.replace(version, b"9" + version[1:])), ("build", bytes_of + b"another")):
+    assert content != bytes_of
+    other_program = pathlib.Path(folder) / f"sinew-mpi-{name}"
+    other_program.write_bytes(content)
+    other_program.chmod(0o755)
+    one_is_different(1, ["rank 1 of 2: the program: this is Sinew " + ("9" if name == "version" else ""), "rank 0 runs another version or build; start the same program"],
+                     [scene], [scene], programs=(program, str(other_program)))
+
+# out of memory on one rank, while it makes a large scene: from there on it gets no more
+
+
+def memory(pid, what):
+    """Of a process [kB]: VmSize, its addresses; VmRSS, what it has now; VmHWM, the most that it had."""
+    return int(re.search(rf"{what}:\s+(\d+)", pathlib.Path(f"/proc/{pid}/status").read_text()).group(1))
+
+
+def needs(path):
+    saved = f"{folder}/memory.scn"
+    pathlib.Path(saved).unlink(missing_ok=True)
+    process = begin(2, program, "run", path, "--mpi", "--steps", 1000000, "--save", saved, "--save-every", 2)
+    wait_for(lambda: steps_in(saved) >= 2)
+    most = memory(ranks_of(process)[1], "VmHWM")
+    process.send_signal(signal.SIGTERM)
+    process.communicate(timeout=60)
+    return most
+
+
+large = pathlib.Path(folder) / "large.scn"
+large.write_text(scenes.large())
+small_needs, large_needs = needs(scene), needs(large)
+assert large_needs > small_needs + 15000, f"{small_needs} and {large_needs} kB"
+process = begin(2, program, "run", large, "--mpi", "--steps", 100000)
+wait_for(lambda: len(ranks_of(process)) == 2)
+second = ranks_of(process)[1]
+while memory(second, "VmRSS") < (2 * small_needs + large_needs) / 3:
+    time.sleep(0.001)
+limit = memory(second, "VmSize") * 1024
+resource.prlimit(second, resource.RLIMIT_AS, (limit, limit))
+_, error = process.communicate(timeout=120)
+assert process.returncode == 1 and error.count("rank 1 of 2: out of memory; take more ranks on more machines, or fewer on one") == 1, f"status {process.returncode}: {error}"
 
 # the runs of a sweep
 sinew = pathlib.Path(program).parent / "sinew"

@@ -155,6 +155,48 @@ def contact(solver):
 """)
 
 
+def gmsh(n, low, high):
+    """A grid of hexahedra as a Gmsh file of version 2.2."""
+    points, cells = grid(n, low, high)
+    lines = [f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n{len(points)}"]
+    lines += [f"{i} {words([p])}" for i, p in enumerate(points, 1)]
+    lines += [f"$EndNodes\n$Elements\n{len(cells)}"]
+    lines += [f"{e} 5 2 1 1 {' '.join(str(i + 1) for i in c)}" for e, c in enumerate(cells, 1)]
+    return "\n".join([*lines, "$EndElements\n"])
+
+
+def loaded(mesh):
+    """A bar of hexahedra from a Gmsh file."""
+    return scene("0 -9.81 0", 0.01, f"""
+  <MeshGmshLoader name="loader" filename="{mesh}"/>
+  <Node name="bar">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    {SOLVERS["cg"]}
+    <MeshTopology name="mesh" src="@../loader"/>
+    <MechanicalObject/>
+    <DiagonalMass massDensity="100"/>
+    <HexahedronFEMForceField youngModulus="1e5" poissonRatio="0.3"/>
+    <BoxROI name="held" box="-0.1 -0.1 -0.1  0.1 1.1 1.1" position="@mesh.position"/>
+    <FixedConstraint indices="@held.indices"/>
+  </Node>
+""")
+
+
+def large():
+    """A block of 8,000 hexahedra, which take some ten MB."""
+    points, cells = grid((21, 21, 21), (0, 0, 0), (1, 1, 1))
+    return scene("0 -9.81 0", 0.01, f"""
+  <Node name="block">
+    <EulerImplicitSolver rayleighStiffness="0.01"/>
+    <CGLinearSolver iterations="1" tolerance="0"/>
+    <MeshTopology position="{words(points)}" hexahedra="{words(cells)}"/>
+    <MechanicalObject/>
+    <UniformMass totalMass="1"/>
+    <HexahedronFEMForceField youngModulus="1e5" poissonRatio="0.3"/>
+  </Node>
+""")
+
+
 def write(folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)

@@ -6,20 +6,32 @@
 #include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/mpi/petsc_linear_solver.hpp>
+#include <sinew/mpi/read_gmsh.hpp>
 #include <sinew/mpi/simulation.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
 
+#include <string>
+
 namespace sinew::mpi {
+
+namespace detail {
+struct GmshFormatOfRanks : sinew::detail::GmshFormat {
+  static Mesh read(std::string const& path) {
+    Communicator* const ranks = ReadTogether::now();
+    return ranks ? read_gmsh(path, *ranks) : io::read_gmsh(path);
+  }
+};
+}  // namespace detail
 
 /// What scene files may have that several processes step together: the classes that are distributed, and
 /// engines that make their data before the scene starts.
 using DistributableBodies =
-    Registry<Gravity, MeshGmshLoader, MeshVTKLoader, MeshOBJLoader, BoxROI<Vec3d>, SphereROI<Vec3d>,
-             PlaneROI<Vec3d>, MeshTopology, TetrahedronTopology, MechanicalObject<Vec3d>, UniformMass<Vec3d>,
-             DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver, CGLinearSolver<>,
-             PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>, SubsetMapping<Vec3d, Vec3d>,
-             BarycentricMapping<Vec3d, Vec3d>>;
+    Registry<Gravity, MeshLoader<detail::GmshFormatOfRanks>, MeshVTKLoader, MeshOBJLoader, BoxROI<Vec3d>,
+             SphereROI<Vec3d>, PlaneROI<Vec3d>, MeshTopology, TetrahedronTopology, MechanicalObject<Vec3d>,
+             UniformMass<Vec3d>, DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver,
+             CGLinearSolver<>, PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>,
+             SubsetMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>>;
 using DistributableForces =
     Registry<TetrahedronFEMForceField<Vec3d>, HexahedronFEMForceField<Vec3d>, MeshSpringForceField<Vec3d>,
              StiffSpringForceField<Vec3d>, PlaneForceField<Vec3d>, SphereForceField<Vec3d>,

@@ -3,6 +3,7 @@
 
 #include <sinew/core/follow.hpp>
 #include <sinew/mpi/distribution.hpp>
+#include <sinew/mpi/same_on_all.hpp>
 #include <sinew/scene/scope.hpp>
 #include <sinew/scene/solvers.hpp>
 #include <sinew/scene/states_of.hpp>
@@ -355,19 +356,16 @@ class ShareOut {
 
   // All ranks have the same scene, and the same version of Sinew.
   void compare(State const& s) {
-    std::uint64_t elements = 14695981039346656037u, places = elements, version = elements;  // FNV-1a
-    auto add = [](std::uint64_t& sum, void const* data, std::size_t bytes) {
-      for (std::size_t i = 0; i < bytes; ++i)
-        sum = (sum ^ static_cast<unsigned char const*>(data)[i]) * 1099511628211u;
-    };
-    add(version, versionText().data(), versionText().size());
+    Mark elements, places, version;
+    version.add(versionText().data(), versionText().size());
     traverse(root_, on<role::State>([&](auto const& state, auto const&) {
                if (static_cast<void const*>(&state) == s.address)
-                 add(places, state.position.data(), state.position.size() * sizeof state.position[0]);
+                 places.add(state.position.data(), state.position.size() * sizeof state.position[0]);
              }));
-    s.forEachJoined([&](std::span<Index const> e) { add(elements, e.data(), e.size() * sizeof e[0]); });
-    for (Points const& p : s.carriers) add(elements, p.data(), p.size() * sizeof p[0]);
-    const std::vector<std::uint64_t> own{version, std::uint64_t(s.points), places, elements};
+    s.forEachJoined([&](std::span<Index const> e) { elements.add(e.data(), e.size() * sizeof e[0]); });
+    for (Points const& p : s.carriers) elements.add(p.data(), p.size() * sizeof p[0]);
+    const std::vector<std::uint64_t> own{
+        version.value, std::uint64_t(s.points), places.value, elements.value};
     std::vector<std::uint64_t> first = own;
     to_.ranks().broadcast(first, "what rank 0 has of the scene");
     if (first.size() != own.size() || first[0] != own[0])

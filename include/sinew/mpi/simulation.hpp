@@ -11,6 +11,7 @@
 // docs/mpi.md says what is distributed and how.
 #include <sinew/mpi/share_out.hpp>
 #include <sinew/scene/simulation.hpp>
+#include <sinew/scene/states_of.hpp>
 
 #include <cstddef>
 #include <memory>
@@ -62,6 +63,28 @@ class DistributedSimulation {
   N const* whole() {
     ranks_->collectively("the whole scene", [&] { gather(); });
     return whole_ ? &*whole_ : nullptr;
+  }
+
+  /// Those of Simulation, on each rank, after keepWhole(): rank 0 adds them up over the whole scene [J].
+  struct Energies {
+    double kinetic, potential;
+  };
+  Energies energies() {
+    std::vector<double> found(2, 0);
+    ranks_->collectively("the energies", [&] {
+      gather();
+      if (whole_) {
+        traverse(scopeOf(*whole_), on<role::Mass>([&](auto& c, auto const& at) {
+                   with_states_of(
+                       c, at, [&](auto& s) { found[0] += c.kineticEnergy(s.position, s.velocity); });
+                 }));
+        traverse(scopeOf(*whole_), on<role::ForceField>([&](auto& c, auto const& at) {
+                   with_states_of(c, at, [&](auto& s) { found[1] += potential_energy(c, s.position); });
+                 }));
+      }
+      ranks_->broadcast(found, "the energies of the scene, from rank 0");
+    });
+    return {found[0], found[1]};
   }
 
   double time() const { return local_.time(); }
