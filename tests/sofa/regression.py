@@ -6,7 +6,7 @@ the reason; else the exit status is 1. With --write that page gets the list anew
 
 The scenes and their steps are in RegressionStateScenes.regression-tests of the examples; the references are the folder
 references/examples of https://github.com/sofa-framework/Regression: for each state of a scene a file of its positions at the start and
-at the end, packed by gzip. A file has no path of its state: its body is the nearest of those with as many numbers."""
+at the end, packed by gzip. A file has no path of its state: its body is the nearest of those with as many numbers. Coordinates have six digits."""
 import argparse
 import concurrent.futures
 import gzip
@@ -38,6 +38,13 @@ def reference(file):
     return positions[0], positions[-1], times[-1]
 
 
+def distance(point, reference):
+    """Of a point from where the reference has it, but for the rounding of that to six digits."""
+    def off(x, y):
+        return max(abs(x - y) - 0.5 * 10 ** (math.floor(math.log10(abs(y))) - 5), 0) if y else abs(x)
+    return math.hypot(*map(off, point, reference))
+
+
 def apart(first, last, start, end):
     """The smallest difference of a reference from one of the bodies, as compare.difference has it; and of which body."""
     best = math.inf, "no body has as many points"
@@ -46,10 +53,10 @@ def apart(first, last, start, end):
             continue
         place = 3 if size == 7 else size
         theirs, begin = ([numbers[i * size : i * size + place] for i in range(len(points))] for numbers in (end, start))
-        distance = max(math.dist(p[:place], q) for p, q in zip(points, theirs))
+        worst = max(distance(p[:place], q) for p, q in zip(points, theirs))
         extent = math.dist(*zip(*((min(c), max(c)) for c in zip(*theirs)))) or 1.0
         moved = max(map(math.dist, begin, theirs)) if len(start) == len(end) else 0
-        best = min(best, (distance / (moved if moved > 1e-6 * extent else extent), node))
+        best = min(best, (worst / (moved if moved > 1e-6 * extent else extent), node))
     return best
 
 
