@@ -141,7 +141,7 @@ def written(text, block, lines):
 
 
 def figure(apart):
-    """A difference with two digits; that of a body with other points is none."""
+    """A difference with one digit; that of a body with other points is none."""
     return "other points" if apart == math.inf else f"{apart:.1g}" if apart >= 0.01 or apart == 0 else f"{apart:.0e}".replace("e-0", "e-")
 
 
