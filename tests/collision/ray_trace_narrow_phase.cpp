@@ -6,6 +6,7 @@
 
 #include "collision/contact_scene.hpp"
 
+#include <algorithm>
 #include <map>
 
 namespace test_ray_trace_narrow_phase {
@@ -150,6 +151,26 @@ TEST_CASE("on the line between the middles of two balls the ray is as long as th
       ++onLine;
     }
   CHECK(onLine == 1);
+}
+
+TEST_CASE("a surface in two layers has the contacts of each of them") {
+  auto twice = [](Mesh mesh) {
+    const int n = int(mesh.points.size());
+    mesh.points.insert(mesh.points.end(), mesh.points.begin(), mesh.points.begin() + n);
+    auto& all = mesh.topology.triangles;
+    for (std::size_t t = 0, count = all.size(); t < count; ++t)
+      all.push_back({all[t][0] + n, all[t][1] + n, all[t][2] + n});
+    return mesh;
+  };
+  const Mesh a = ball(1, 2, {3, 20, -11}), b = ball(0.8, 2, {4.3, 20.21, -11.13});
+  const auto one = contacts_of(body<"a">(a), body<"b">(b)),
+             two = contacts_of(body<"a">(twice(a)), body<"b">(b));
+  auto ofA = [](std::vector<Contact> const& all) {
+    return std::count_if(all.begin(), all.end(), [](Contact const& c) { return c.a.corners() == 1; });
+  };
+  REQUIRE(ofA(one) > 5);
+  CHECK(ofA(two) == 2 * ofA(one));
+  CHECK(two.size() - std::size_t(ofA(two)) == one.size() - std::size_t(ofA(one)));
 }
 
 TEST_CASE("rays do not depend on the frame") {

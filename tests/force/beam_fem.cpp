@@ -102,8 +102,22 @@ TEST_CASE("a beam resists stretch, twist and bending alone as its section does")
   CHECK(f[1].head<5>().norm() < 1e-14);
 }
 
+// 12 EI / L^3 across, and 12 EI / L^3 (1 + p) where it yields to shear, with p = 12 EI / (k G A L^2)
+TEST_CASE("a beam yields to shear where it is asked to, and otherwise as SOFA's does not") {
+  const double E = 200, nu = 0.25, L = 2, u = 1e-4;
+  const BeamSection s = circular_section(0.3, 0, nu);
+  for (const bool shear : {false, true}) {
+    Beams round{.poissonRatio = nu, .youngModulus = E, .radius = 0.3};
+    if (shear) round.shearStressComputation = true;
+    auto beam = ready(round, {frame({0, 0, 0}), frame({L, 0, 0})}, lines({{0, 1}}));
+    const auto f = force(beam, {frame({0, 0, 0}), frame({L, u, 0})});
+    const double p = shear ? 12 * E * s.aboutZ / (s.shear * E / (2 * (1 + nu)) * s.area * L * L) : 0;
+    CHECK(f[1][1] == Approx(-12 * E * s.aboutZ / (L * L * L * (1 + p)) * u).epsilon(1e-6));
+  }
+}
+
 TEST_CASE("how frames stand to a round beam, and in which order they come, changes nothing") {
-  const Beams round{.poissonRatio = 0.3, .youngModulus = 100, .radius = 0.2};
+  const Beams round{.poissonRatio = 0.3, .youngModulus = 100, .radius = 0.2, .shearStressComputation = true};
   auto beams = ready(round, bent, lines(two)), reversed = ready(round, bent, lines({{1, 0}, {2, 1}}));
   const auto x = moved(bent, wave(3, 0.4));
   const auto f = force(beams, x), g = force(reversed, x);
@@ -132,7 +146,10 @@ TEST_CASE("how frames stand to a round beam, and in which order they come, chang
 }
 
 TEST_CASE("the tangent of a beam is the symmetric part of the derivative of its forces, far from rest too") {
-  auto beams = ready(Beams{.poissonRatio = 0.3, .youngModulus = 100, .radius = 0.3}, bent, lines(two));
+  auto beams =
+      ready(Beams{.poissonRatio = 0.3, .youngModulus = 100, .radius = 0.3, .shearStressComputation = true},
+            bent,
+            lines(two));
   const auto x = moved(bent, wave(3, 0.7, 3));
   for (int trial = 0; trial < 4; ++trial) {
     const double h = 1e-5;

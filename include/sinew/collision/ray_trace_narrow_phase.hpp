@@ -22,7 +22,8 @@ namespace sinew {
 /// at no gap, so that this distance should be short.
 ///
 /// A body that is wholly inside another has no contacts. A surface without an inside, such as a floor of one
-/// layer, stops the vertices of closed ones, but its own vertices find nothing. Rays are followed in the
+/// layer, stops the vertices of closed ones, but its own vertices find nothing. Of a surface in two layers,
+/// as some files of meshes have it, the vertices of both find their contacts. Rays are followed in the
 /// hierarchies of boxes that BVHNarrowPhase has, too; SOFA has octrees. All other pairs of models (spheres,
 /// hulls, a body with itself) are as with BVHNarrowPhase; points and lines beside triangles are left to
 /// these.
@@ -104,13 +105,15 @@ struct RayTraceNarrowPhase {
 namespace sinew {
 namespace detail {
 
-// The first triangle that a ray meets, of those without the vertex; -1: there is none.
-inline std::pair<int, RayHit> first_hit(Ray const& ray, CollisionSurface const& s, int without) {
+// The first triangle that a ray meets; -1: there is none. A ray that begins on the surface leaves out what
+// has a corner there: triangles of its vertex, and of another one at the same place, as of a surface in two
+// layers.
+inline std::pair<int, RayHit> first_hit(Ray const& ray, CollisionSurface const& s, bool beginsThere) {
   std::pair<int, RayHit> best{-1, {}};
   s.tree.ray(ray.origin, ray.direction, std::numeric_limits<double>::infinity(), [&](int e, double until) {
-    auto const& corners = s.elements[std::size_t(e)];
-    if (std::find(corners.begin(), corners.end(), without) != corners.end()) return until;
-    const RayHit hit = ray_triangle(ray, s.corner<3>(s.position, e), corners);
+    const auto p = s.corner<3>(s.position, e);
+    if (beginsThere && std::find(p.begin(), p.end(), ray.origin) != p.end()) return until;
+    const RayHit hit = ray_triangle(ray, p, s.elements[std::size_t(e)]);
     if (!hit || !(hit.distance <= until)) return until;
     if (hit.distance < best.second.distance || e < best.first) best = {e, hit};
     return hit.distance;
@@ -153,9 +156,9 @@ SINEW_ONCE bool RayTraceNarrowPhase::trace(CollisionSurface const& own, int vert
   Eigen::Vector3d const& normal = normals[std::size_t(vertex)];
   if (!(normal.squaredNorm() > 0)) return false;
   const Ray ray{own.position[std::size_t(vertex)], -normal};
-  const auto [e, hit] = detail::first_hit(ray, other, -1);
+  const auto [e, hit] = detail::first_hit(ray, other, false);
   if (e < 0 || !detail::goes_out(ray, other, e)) return false;
-  const auto [wall, through] = detail::first_hit(ray, own, vertex);
+  const auto [wall, through] = detail::first_hit(ray, own, true);
   if (wall < 0 || !detail::goes_out(ray, own, wall) || through.distance < hit.distance) return false;
   mine.element = element;
   mine.vertices = {vertex, -1, -1};

@@ -161,7 +161,7 @@ struct BeamFEMForceField {
   std::vector<int> listSegment{};
   CrossSectionShape crossSectionShape = CrossSectionShape::circular;
   double lengthY = 1, lengthZ = 1;
-  bool shearStressComputation = true;
+  bool shearStressComputation = false;
 
   static constexpr auto fields() {
     using F = BeamFEMForceField;
@@ -201,7 +201,7 @@ struct BeamFEMForceField {
         field("shearStressComputation",
               &F::shearStressComputation,
               "",
-              "Timoshenko's beam, which yields to shear; Euler and Bernoulli's when not")
+              "Timoshenko's beam, which yields to shear; Euler and Bernoulli's, as in SOFA, when not")
             .also("useShearStressComputation"));
   }
 
