@@ -84,6 +84,7 @@
 #include <sinew/force/composite_cells.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
+#include <sinew/force/material_axes.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
 #include <sinew/lagrangian/compliance_file.hpp>
 #include <sinew/mapping/particle_surface.hpp>

@@ -133,7 +133,7 @@ inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"AverageCoord", "vecId", "1"}, {"ClusteringEngine", "outFile", ""}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
     {"GenerateCylinder", "BezierTriangleDegree", ""}, {"GenerateSphere", "BezierTetrahedronDegree", ""},
     {"GenerateSphere", "BezierTriangleDegree", ""}, {"MeshTrianLoader", "trian2", "0"},
-    {"", "AnisotropyDirections", ""}, {"", "box", ""},
+    {"", "box", ""},
     {"", "cauchyStress", "[ 0 0 0 , 0 0 0 , 0 0 0]"}, {"", "clamp", "0"},
     {"", "compute_mapping_inertia", "0"}, {"", "computePointList", "1"},
     {"", "computeWeightsFromPosition", "0"}, {"", "contactRestitution", "0"},
