@@ -30,10 +30,10 @@ struct Law {
     b.anisotropyDirections = fibres;
     return b;
   }
-  // parameters with which the volume hardly changes
+  // parameters with which the volume hardly changes; an exponential feels it more
   Law stiffInVolume() const {
     Law law = *this;
-    law.p.back() = 1e5;
+    law.p.back() = material == Material::VerondaWestman ? 1e6 : 1e5;
     return law;
   }
   // twice the slope of VerondaWestman's W by B1

@@ -339,11 +339,13 @@ struct TetrahedronHyperelasticityFEMForceField {
               &F::fiberDirections,
               "",
               "direction of axis f at rest, one for all elements or one for each, or for each hexahedron; "
-              "none: x"),
+              "none: x")
+            .oneEach(Of::volumes),
         field("sheetDirections",
               &F::sheetDirections,
               "",
-              "direction in the plane of axes f and s, as many; none: some direction square to f"),
+              "direction in the plane of axes f and s, as many; none: some direction square to f")
+            .oneEach(Of::volumes),
         field("matrixRegularization",
               &F::matrixRegularization,
               "",
