@@ -58,14 +58,14 @@ struct HolzapfelGasserOgden {
   template <class Real, class P, class A>
   SINEW_INLINE static DirectedStrain<Real> strain(P const& p, A const& along, int m, Mat<Real, 3> const& c) {
     DirectedStrain<Real> out;
+    using Scalar = lane_scalar<Real>;
     const bool fibres = m > 0;
-    const auto kappa = p[4], share = 1 - 3 * kappa;
+    const Scalar even = fibres ? Scalar(p[4]) : Scalar(1), share = fibres ? Scalar(1 - 3 * p[4]) : Scalar(0);
+    auto const* const a = along.data() + (fibres ? 3 * (m - 1) : 0);
     out.k = Real(0);
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) {
-        lane_scalar<Real> h = fibres ? (i == j ? kappa : 0) : (i == j ? 1 : 0);
-        if (fibres) h += share * along[std::size_t(3 * (m - 1) + i)] * along[std::size_t(3 * (m - 1) + j)];
-        out.t(i, j) = Real(h);
+        out.t(i, j) = Real((i == j ? even : Scalar(0)) + share * a[i] * a[j]);
         out.k += out.t(i, j) * c(i, j);
       }
     return out;
