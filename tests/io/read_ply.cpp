@@ -153,9 +153,10 @@ TEST_CASE("read_ply names the place of an error") {
 TEST_CASE("read_ply names the byte of an error in binary data") {
   const std::string whole = binary(false);
   const std::size_t data = whole.find("end_header\n") + 11;
-  check_says(error_in(whole.substr(0, whole.size() - 1)),
-             "f.ply",
-             text("byte ", whole.size() - 2, ": the data end where an entry of pixels"));
+  check_says(
+      error_in(whole.substr(0, whole.size() - 1)),
+      "f.ply",
+      text("byte ", whole.size() - 4, ": the list pixels of element camera is given 2 entries, but 3 bytes"));
   check_says(error_in(whole + '\0'), "f.ply", text("byte ", whole.size(), ": more follows"));
   std::string bad = whole;
   for (std::size_t k = 0; k < 4; ++k) bad[data + 17 + k] = char(0xff);  // x of the second point
