@@ -20,6 +20,7 @@
 #include <sinew/io/read_mtl.hpp>
 #include <sinew/io/read_obj.hpp>
 #include <sinew/io/read_off.hpp>
+#include <sinew/io/read_ply.hpp>
 #include <sinew/io/read_rigid.hpp>
 #include <sinew/io/read_sph.hpp>
 #include <sinew/io/read_stl.hpp>

@@ -13,6 +13,8 @@
 #include <sinew/collision/contact_rules.hpp>
 #include <sinew/collision/convex_hull.hpp>
 #include <sinew/collision/default_pipeline.hpp>
+#include <sinew/collision/distance_grid.hpp>
+#include <sinew/collision/grid_contacts.hpp>
 #include <sinew/collision/overlaps.hpp>
 #include <sinew/collision/penalty_contact.hpp>
 #include <sinew/collision/ray_hits.hpp>
@@ -84,6 +86,8 @@
 #include <sinew/force/composite_cells.hpp>
 #include <sinew/force/element_pressure.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
+#include <sinew/force/material_axes.hpp>
+#include <sinew/force/reaction.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
 #include <sinew/lagrangian/compliance_file.hpp>
 #include <sinew/mapping/particle_surface.hpp>

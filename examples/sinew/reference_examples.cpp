@@ -619,6 +619,21 @@ constexpr auto classExamples = std::to_array<ClassExample>({
     <FixedConstraint indices="@../hot.indices"/>
   </Node>
 </Node>)"},
+    {"TetrahedronReactionFEMForceField", R"(
+<Node name="body" gravity="0 0 0">
+  <GenerateGrid name="grid" min="0 0 0" max="0.4 0.1 0.1" resolution="9 3 3"/>
+  <MeshTopology position="@grid.output_position" tetrahedra="@grid.tetrahedra"/>
+  <MechanicalObject/>
+  <ValuesFromPositions name="start" position="@grid.output_position" inputValues="1 0" direction="1 0 0"/>
+  <Node name="growth">
+    <EulerImplicitSolver firstOrder="true"/>
+    <CGLinearSolver iterations="100" tolerance="1e-8"/>
+    <MechanicalObject template="Vec1d" position="@../start.values"/>
+    <DiagonalMass massDensity="1"/>
+    <TetrahedronDiffusionFEMForceField constantDiffusionCoefficient="0.001"/>
+    <TetrahedronReactionFEMForceField reaction="FisherKPP" ParameterSet="2"/>
+  </Node>
+</Node>)"},
     {"TetrahedronFEMForceField", "", softBody, ""},
     {"TetrahedronHyperelasticityFEMForceField", R"(
 <TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},
@@ -1699,6 +1714,17 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <MeshSpringForceField stiffness="200" damping="0.5"/>
   <FixedConstraint indices="0 1"/>
 </Node>)"},
+    {"MeshPLYLoader", R"(
+<Node name="body" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <CGLinearSolver iterations="100" tolerance="1e-8"/>
+  <MeshPLYLoader name="mesh" filename="data/roof.ply"/>
+  <MeshTopology src="@mesh"/>
+  <MechanicalObject src="@mesh"/>
+  <UniformMass totalMass="0.1"/>
+  <MeshSpringForceField stiffness="200" damping="0.5"/>
+  <FixedConstraint indices="0 1"/>
+</Node>)"},
     {"GIDMeshLoader", R"(
 <Node name="body" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
@@ -2031,6 +2057,26 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <PointCollisionModel contactStiffness="20"/>)",
      friction,
      "PointCollisionModel"},
+    {"RigidDistanceGridCollisionModel", R"(
+<Node name="root" gravity="0 -9.81 0">
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.05" contactDistance="0.01"/>
+  <DefaultContactManager/>
+  <Node name="ball">
+    <MechanicalObject template="Rigid3d" position="0 0 0  0 0 0 1"/>
+    <RigidDistanceGridCollisionModel filename="#sphere" scale="0.5" nx="33" ny="33" nz="33"
+                                     moving="false" simulated="false" contactStiffness="100"/>
+  </Node>
+  <Node name="drops">
+    <EulerImplicitSolver/>
+    <CGLinearSolver iterations="50" tolerance="1e-8"/>
+    <MechanicalObject position="0 0.52 0  0.3 0.5 0.1"/>
+    <UniformMass vertexMass="0.1"/>
+    <PointCollisionModel contactStiffness="10" contactDamping="1"/>
+  </Node>
+</Node>)"},
     {"OBBCollisionModel", R"(
 <Node name="root" gravity="0 -9.81 0">
   <DefaultPipeline/>

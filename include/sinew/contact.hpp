@@ -18,6 +18,7 @@
 #include <sinew/collision/min_proximity_intersection.hpp>
 #include <sinew/collision/point_collision_model.hpp>
 #include <sinew/collision/ray_trace_narrow_phase.hpp>
+#include <sinew/collision/rigid_distance_grid_collision_model.hpp>
 #include <sinew/collision/sphere_collision_model.hpp>
 #include <sinew/collision/sub_collision_pipeline.hpp>
 #include <sinew/collision/tetrahedron_collision_model.hpp>

@@ -66,6 +66,7 @@
 #include <sinew/force/tetrahedron_diffusion.hpp>
 #include <sinew/force/tetrahedron_fem.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
+#include <sinew/force/tetrahedron_reaction.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/triangular_biquadratic_springs.hpp>

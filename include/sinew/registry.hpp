@@ -4,6 +4,7 @@
 #include <sinew/core/registry.hpp>
 #include <sinew/engine/gid_mesh_loader.hpp>
 #include <sinew/engine/mesh_off_loader.hpp>
+#include <sinew/engine/mesh_ply_loader.hpp>
 #include <sinew/engine/mesh_trian_loader.hpp>
 #include <sinew/engine/mesh_vtk_loader.hpp>
 #include <sinew/fluid/fluid2d.hpp>
@@ -96,7 +97,7 @@ using SpatialMappings =
 
 // values on the points of a body, such as temperatures
 template <class D>
-using BodyFields = Registry<TetrahedronDiffusionFEMForceField<D>>;
+using BodyFields = Registry<TetrahedronDiffusionFEMForceField<D>, TetrahedronReactionFEMForceField<D>>;
 
 // what scenes over the rarer DataTypes, and in single precision, need
 template <class D>
@@ -178,7 +179,7 @@ using PlacingEngines =
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, SubsetTopology<D>>;
 using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, GIDMeshLoader,
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, MeshPLYLoader, GIDMeshLoader,
              MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
              GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Hexa2PrismTopologicalMapping,
              Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping,
@@ -207,7 +208,7 @@ using StandardCollision =
     Registry<DefaultPipeline, SubCollisionPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase,
              RayTraceNarrowPhase, LocalMinDistance, MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
              CarvingManager, CuttingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
-             ConvexCollisionModels>;
+             RigidDistanceGridCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
 template <class D>
 using LagrangianJoints = Registry<FixedLagrangianConstraint<D>, BilateralLagrangianConstraint<D>,

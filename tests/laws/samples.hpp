@@ -54,6 +54,7 @@
 #include "samples/subset_multi_mapping.hpp"
 #include "samples/surface_pressure.hpp"
 #include "samples/tetrahedron_hyperelasticity.hpp"
+#include "samples/tetrahedron_reaction.hpp"
 #include "samples/tetrahedron_viscoelasticity.hpp"
 #include "samples/triangle_fem.hpp"
 #include "samples/tubular_mapping.hpp"

@@ -6,6 +6,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -20,19 +21,23 @@ using Material = HyperelasticMaterial;
 struct Law {
   Material material;
   std::vector<double> p;
+  std::vector<Vector3d> fibres{};  // unit vectors, two of them mirrored in a plane of the axes
 
   Body body() const {
     Body b;
     b.materialName = material;
     b.parameterSet = p;
+    b.anisotropyDirections = fibres;
     return b;
   }
-  // parameters with which the volume hardly changes
+  // parameters with which the volume hardly changes; an exponential feels it more
   Law stiffInVolume() const {
     Law law = *this;
-    law.p.back() = 1e5;
+    law.p.back() = material == Material::VerondaWestman ? 1e6 : 1e5;
     return law;
   }
+  // twice the slope of VerondaWestman's W by B1
+  double exponential(double b1) const { return 2 * p[0] * p[1] * std::exp(p[1] * (b1 - 3)); }
   // slope of W by B1 where W depends on it alone, times 2
   double chain(double b1) const {
     const double c[] = {1. / 2, 1. / 160, 11. / 67200, 19. / 3584000, 519. / 2759680000};
@@ -62,6 +67,28 @@ struct Law {
         const double q = std::pow(j, -2. / 3);
         return chain(q * i1) * q * (c - i1 / 3 * one) + p[1] * ln * one;
       }
+      case Material::VerondaWestman: {
+        const double q = std::pow(j, -2. / 3);
+        return exponential(q * i1) * q * (c - i1 / 3 * one) -
+               p[0] * p[1] * q * q * (i1 * c - c.cwiseAbs2() - 2 * i2 / 3 * one) + p[2] * ln * one;
+      }
+      case Material::Costa: {
+        const Vector3d e = (c - one) / 2, b(p[2], p[4], p[7]);
+        const double q = b.dot(e.cwiseAbs2()), power = std::pow(j, -4. / 3);
+        return p[0] * std::exp(power * q) * power * (b.cwiseProduct(e).cwiseProduct(c) - 2 * q / 3 * one) +
+               p[1] * j * ln * one;
+      }
+      case Material::HolzapfelGasserOgden: {
+        const double q = std::pow(j, -2. / 3);
+        Vector3d sum = p[0] * q * (c - i1 / 3 * one) + p[1] * ln * one;
+        for (auto const& a : fibres) {
+          const Vector3d h = p[4] * one + (1 - 3 * p[4]) * a.cwiseAbs2();
+          const double strain = std::max(0., q * h.dot(c) - 1);
+          sum += 2 * p[2] * strain * std::exp(p[3] * strain * strain) * q *
+                 (h.cwiseProduct(c) - h.dot(c) / 3 * one);
+        }
+        return sum;
+      }
       case Material::Ogden:
         break;
     }
@@ -81,6 +108,8 @@ struct Law {
         return 2 * (p[0] + p[1]) * g;
       case Material::ArrudaBoyce:
         return chain(3 + g * g) * g;
+      case Material::VerondaWestman:
+        return (exponential(3 + g * g) - p[0] * p[1]) * g;
       case Material::Ogden: {
         // principal stretches l, 1, 1/l
         const double l = g / 2 + std::sqrt(1 + g * g / 4);
@@ -101,6 +130,13 @@ inline const std::vector<Law> laws{{Material::ArrudaBoyce, {100, 500}},
                                    {Material::MooneyRivlin, {30, 20, 500}},
                                    {Material::Ogden, {200, 3, 500}},
                                    {Material::Ogden, {120, 1.3, 40, 5, 20, -2, 500}},
-                                   {Material::StableNeoHookean, {100, 150}}};
+                                   {Material::StableNeoHookean, {100, 150}},
+                                   {Material::VerondaWestman, {125, 0.8, 500}}};
+
+/// Those with directions, along the axes or mirrored in a plane of them.
+inline const std::vector<Law> directedLaws{
+    {Material::Costa, {50, 500, 3, 2, 2, 1.5, 1.2, 1}},
+    {Material::HolzapfelGasserOgden, {60, 500, 80, 0.7, 0}, {{1, 0, 0}}},
+    {Material::HolzapfelGasserOgden, {60, 500, 80, 0.7, 0.1}, {{0.8, 0.6, 0}, {0.8, -0.6, 0}}}};
 
 }  // namespace hyperelastic

@@ -10,12 +10,15 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 namespace sinew {
+
+struct DistanceGrid;
 
 /// What detection and response know of a collision model: its primitives over vertices in world space, each
 /// with a radius around it, and how they behave in contact. A model is to its surface what a mapping is to
@@ -27,6 +30,8 @@ struct CollisionSurface : SurfaceShape {
   std::vector<std::array<int, 3>> elements{};  // their corners, -1 behind the last; of a hull its centre
   std::vector<double> radius{};                // around each element; empty: none
   std::vector<ConvexHull> hulls{};             // in the axes of rigids: one of all elements, or one of each
+  std::shared_ptr<DistanceGrid const> grid{};  // around each rigid, of a model of distances
+  bool gridPoints = false;                     // whether those on its surface meet other grids
   std::vector<std::array<int, 4>> solid{};     // tetrahedra of which it is the surface, if it is filled
   std::string path{};                          // of its node
   std::string name{};                          // of the model, where it has one
@@ -117,6 +122,8 @@ struct CollisionSurface : SurfaceShape {
 
  private:
   AxisBox hullBox(int element, double dt) const;
+  AxisBox gridBox(int element, double dt) const;
+  AxisBox onItsWay(AxisBox const& now, int vertex, double reach, double dt) const;
 };
 
 /// Sets position and velocity of a vertex of a surface from those of a point of its state.
@@ -175,6 +182,7 @@ void add_forces(typename D::VecDeriv& f, CollisionSurface const& s) {
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <sinew/collision/distance_grid.hpp>
 #include <sinew/collision/local_minimum.hpp>
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
@@ -339,6 +347,7 @@ SINEW_ONCE void CollisionSurface::enclose(double margin, double dt) {
       if (dt > 0) b.include(position[v] + (solver < 0 ? -dt : dt) * velocity[v]);
     }
     if (shape == Shape::hull) b = hullBox(int(e), dt);
+    if (grid) b = gridBox(int(e), dt);
     boxes[e] = b.grown(settings.proximity + margin + radiusOf(int(e)));
     box.include(boxes[e]);
   }
@@ -357,12 +366,32 @@ SINEW_ONCE AxisBox CollisionSurface::hullBox(int element, double dt) const {
   const Eigen::Matrix3d rotation = orientation[v].toRotationMatrix();
   AxisBox b;
   for (auto const& p : hull.points()) b.include(position[v] + rotation * p);
-  if (!(dt > 0)) return b;
-  AxisBox swept = b;
-  swept.include(b.min + (solver < 0 ? -dt : dt) * velocity[v]);
-  swept.include(b.max + (solver < 0 ? -dt : dt) * velocity[v]);
+  return onItsWay(b, int(v), hull.reach(), dt);
+}
+
+SINEW_ONCE AxisBox CollisionSurface::gridBox(int element, double dt) const {
+  const int vertex = elements[std::size_t(element)][0];
+  const Eigen::Matrix3d rotation = orientation[std::size_t(vertex)].toRotationMatrix();
+  AxisBox b;
+  double reach = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    Eigen::Vector3d p;
+    for (int c = 0; c < 3; ++c) p[c] = corner >> c & 1 ? grid->around.max[c] : grid->around.min[c];
+    b.include(position[std::size_t(vertex)] + rotation * p);
+    reach = std::max(reach, p.norm());
+  }
+  return onItsWay(b, vertex, reach, dt);
+}
+
+// what a rigid is in during a step, all of it within a distance from its centre
+SINEW_ONCE AxisBox CollisionSurface::onItsWay(AxisBox const& now, int vertex, double reach, double dt) const {
+  if (!(dt > 0)) return now;
+  const auto v = std::size_t(vertex);
+  AxisBox swept = now;
+  swept.include(now.min + (solver < 0 ? -dt : dt) * velocity[v]);
+  swept.include(now.max + (solver < 0 ? -dt : dt) * velocity[v]);
   // a point at r moves by at most |w| r dt as the body rotates
-  return swept.grown(dt * spin[v].norm() * hull.reach());
+  return swept.grown(dt * spin[v].norm() * reach);
 }
 
 }  // namespace sinew

@@ -42,7 +42,7 @@ struct ConvexCollisionModel {
         field("points", &M::points, "m", "points of the hull, in the axes of the rigid")
             .also("position CHPoints"),
         field(
-            "filename", &M::filename, "", "a mesh (.msh, .obj, .stl, .vtk) whose points they are, instead"));
+            "filename", &M::filename, "", "a mesh (.msh, .obj, .stl, .ply, .vtk) whose points they are, instead"));
   }
 
   CollisionSurface surface{};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/collision/grid_contacts.hpp>
 #include <sinew/collision/proximity.hpp>
 #include <sinew/collision/solid_contacts.hpp>
 #include <sinew/core/compiled.hpp>
@@ -32,6 +33,7 @@ struct DefaultPipeline {
   std::array<std::pair<int, int>, 256> candidates{};
   std::size_t count = 0;
   std::vector<Contact> inSolids{};  // of two models
+  GridSearch gridSearch{};
 
   /// Whether two models may collide at all; those that one frame carries cannot.
   static bool compare(CollisionSurface const& a, CollisionSurface const& b);
@@ -55,6 +57,23 @@ struct DefaultPipeline {
     for (auto const& pair : near) {
       const int i = pair.first, j = pair.second;
       CollisionSurface const &a = *surfaces[std::size_t(i)], &b = *surfaces[std::size_t(j)];
+      if (a.grid || b.grid) {
+        for (const bool first : {true, false}) {
+          CollisionSurface const &grid = first ? a : b, &other = first ? b : a;
+          if (!grid.grid || a.state == b.state) continue;
+          const double proximity = a.settings.proximity + b.settings.proximity;
+          find_in_grid(grid,
+                       other,
+                       limitOf(intersection, a, b),
+                       intersection.reach() + proximity,
+                       first,
+                       gridSearch,
+                       inSolids);
+          for (Contact& contact : inSolids) AddTo<Manager>{manager, i, j}(contact);
+          inSolids.clear();
+        }
+        continue;
+      }
       if constexpr (MeetsModels<Narrow>)
         if (narrow.meets(a, b)) {
           narrow.contacts(a, b, limitOf(intersection, a, b), AddTo<Manager>{manager, i, j});

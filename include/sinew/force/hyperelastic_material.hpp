@@ -3,6 +3,8 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/data_types.hpp>
+#include <sinew/force/fibrous_material.hpp>
+#include <sinew/force/hyperelastic_response.hpp>
 
 #include <array>
 #include <cmath>
@@ -11,7 +13,7 @@
 
 namespace sinew {
 
-/// Isotropic hyperelastic materials, by SOFA's names, with SOFA's order of parameters. W is the energy per
+/// Hyperelastic materials, by SOFA's names, with SOFA's order of parameters. W is the energy per
 /// volume at rest [Pa] of the deformation gradient F with singular values s_a; I1 = sum s_a^2,
 /// I2 = sum_(a<b) s_a^2 s_b^2, J = det F, and bars take the change of volume out: B1 = J^(-2/3) I1, B2 =
 /// J^(-4/3) I2.
@@ -26,19 +28,46 @@ namespace sinew {
 ///   mu)
 ///                                                                       (Smith, de Goes, Kim 2018; c: W = 0
 ///                                                                       at rest)
+///   VerondaWestman     c1 c2 k0     W = c1 (e^(c2 (B1 - 3)) - 1) - c1 c2/2 (B2 - 3) + k0/2 ln^2 J (1970)
+/// and two with directions, those of the axes f, s and n of an element, E = (F'F - I)/2:
+///   Costa              a k0 bff bfs bss bfn bsn bnn     W = a/2 (e^(J^(-4/3) Q) - 1) + k0 (J ln J - J + 1)
+///                         Q = bff Eff^2 + bss Ess^2 + bnn Enn^2 + 2 (bfs Efs^2 + bfn Efn^2 + bsn Esn^2)
+///                                                       (Costa, Holmes, McCulloch 2001, as SOFA has it)
+///   HolzapfelGasserOgden    mu k0 k1 k2 kappa     fibres along unit vectors a, dispersed by kappa in [0,
+///   1/3]
+///                         W = mu/2 (B1 - 3) + k0/2 ln^2 J + sum_a k1/(2 k2) (e^(k2 <E>^2) - 1),
+///                         E = J^(-2/3) (kappa I1 + (1 - 3 kappa) a'F'F a) - 1, of which <E> is what is
+///                         positive: fibres carry tension only        (Gasser, Ogden, Holzapfel 2006)
 /// Of these, StVenantKirchhoff and StableNeoHookean are polynomials in F. In the others the functions of J
 /// are continued below a smallest ratio, with two derivatives, by what ends in straight lines: W is defined
-/// for crushed and inverted elements too, grows with inversion, and drives them back.
+/// for crushed and inverted elements too, grows with inversion, and drives them back. StVenantKirchhoff, and
+/// Costa but for its term of volume, take an element that is inside out for its mirror image, which they
+/// hold. Exponentials are continued above e^50.
 enum class HyperelasticMaterial {
   ArrudaBoyce,
   StVenantKirchhoff,
   NeoHookean,
   MooneyRivlin,
   Ogden,
-  StableNeoHookean
+  StableNeoHookean,
+  VerondaWestman,
+  Costa,
+  HolzapfelGasserOgden
 };
-inline constexpr std::array<std::string_view, 6> enum_names(HyperelasticMaterial) {
-  return {"ArrudaBoyce", "StVenantKirchhoff", "NeoHookean", "MooneyRivlin", "Ogden", "StableNeoHookean"};
+inline constexpr std::array<std::string_view, 9> enum_names(HyperelasticMaterial) {
+  return {"ArrudaBoyce",
+          "StVenantKirchhoff",
+          "NeoHookean",
+          "MooneyRivlin",
+          "Ogden",
+          "StableNeoHookean",
+          "VerondaWestman",
+          "Costa",
+          "HolzapfelGasserOgden"};
+}
+/// Whether the energy depends on directions in the body.
+inline constexpr bool has_directions(HyperelasticMaterial material) {
+  return material == HyperelasticMaterial::Costa || material == HyperelasticMaterial::HolzapfelGasserOgden;
 }
 /// Names of the parameters, in their order.
 inline constexpr std::string_view parameter_names(HyperelasticMaterial material) {
@@ -46,7 +75,12 @@ inline constexpr std::string_view parameter_names(HyperelasticMaterial material)
     case HyperelasticMaterial::ArrudaBoyce:
       return "mu k0";
     case HyperelasticMaterial::MooneyRivlin:
+    case HyperelasticMaterial::VerondaWestman:
       return "c1 c2 k0";
+    case HyperelasticMaterial::Costa:
+      return "a k0 bff bfs bss bfn bsn bnn";
+    case HyperelasticMaterial::HolzapfelGasserOgden:
+      return "mu k0 k1 k2 kappa";
     case HyperelasticMaterial::Ogden:
       return "mu1 alpha1 [mu2 alpha2 [mu3 alpha3]] k0";
     default:
@@ -56,96 +90,18 @@ inline constexpr std::string_view parameter_names(HyperelasticMaterial material)
 inline constexpr bool takes_parameters(HyperelasticMaterial material, std::size_t count) {
   switch (material) {
     case HyperelasticMaterial::MooneyRivlin:
+    case HyperelasticMaterial::VerondaWestman:
       return count == 3;
+    case HyperelasticMaterial::Costa:
+      return count == 8;
+    case HyperelasticMaterial::HolzapfelGasserOgden:
+      return count == 5;
     case HyperelasticMaterial::Ogden:
       return count == 3 || count == 5 || count == 7;
     default:
       return count == 2;
   }
 }
-
-namespace detail {
-
-/// f(a), lane by lane: for functions that have no instruction.
-template <class Real, class F>
-SINEW_INLINE Real each_lane(Real a, F&& f) {
-  if constexpr (lane_traits<Real>::width == 1) {
-    return f(a);
-  } else {
-    for (int l = 0; l < lane_traits<Real>::width; ++l) a.v[l] = f(a.v[l]);
-    return a;
-  }
-}
-template <class Real>
-SINEW_INLINE Real log_of(Real a) {
-  using std::log;
-  return each_lane(a, [](auto s) { return log(s); });
-}
-template <class Real>
-SINEW_INLINE Real exp_of(Real a) {
-  using std::exp;
-  return each_lane(a, [](auto s) { return exp(s); });
-}
-
-/// A function of one variable with its first two derivatives.
-template <class Real>
-struct Jet {
-  Real f, d, dd;
-
-  /// The Taylor polynomial from here at a distance.
-  SINEW_INLINE Jet taylor(Real by) const { return {f + by * (d + Real(0.5) * by * dd), d + by * dd, dd}; }
-  /// The same with a curvature that fades as (1 - by/width)^-3: a straight line far from here, where by < 0.
-  SINEW_INLINE Jet fading(Real by, Real width) const {
-    const Real t = Real(1) / (Real(1) - by / width), curvature = Real(0.5) * dd * width;
-    return {f + by * (d - curvature) + curvature * width * (t - Real(1)),
-            d + curvature * (t * t - Real(1)),
-            dd * t * t * t};
-  }
-  SINEW_INLINE Jet square() const { return {f * f, Real(2) * f * d, Real(2) * (d * d + f * dd)}; }
-};
-
-/// Functions of a ratio, continued below `threshold`.
-template <class Real>
-struct Continued {
-  Real width, ratio, by, log, inverse;
-
-  SINEW_INLINE Continued(Real value, Real threshold)
-      : width(threshold),
-        ratio(select(value < threshold, threshold, value)),
-        by(value - ratio),
-        log(log_of(ratio)),
-        inverse(Real(1) / ratio) {}
-  /// ratio^e with e < 0
-  SINEW_INLINE Jet<Real> power(lane_scalar<Real> e) const {
-    const Real f = exp_of(Real(Real(e) * log)), d = Real(e) * f * inverse;
-    return Jet<Real>{f, d, Real(e - 1) * d * inverse}.fading(by, width);
-  }
-  /// -a ln + b/2 ln^2
-  SINEW_INLINE Jet<Real> barrier(Real a, Real b) const {
-    return Jet<Real>{log * (Real(0.5) * b * log - a),
-                     (b * log - a) * inverse,
-                     (a + b * (Real(1) - log)) * inverse * inverse}
-        .fading(by, width);
-  }
-};
-
-/// W(I1, I2, J) and its derivatives; those that no material has are left out.
-template <class Real>
-struct InvariantResponse {
-  Real w{0}, w1{0}, w2{0}, wJ{0}, w11{0}, w1J{0}, w2J{0}, wJJ{0};
-
-  /// A function of J.
-  SINEW_INLINE void add(Jet<Real> const& u) { w += u.f, wJ += u.d, wJJ += u.dd; }
-  /// phi(q(J) I1)
-  SINEW_INLINE void add(Jet<Real> const& phi, Jet<Real> const& q, Real i1) {
-    const Real slope = q.d * i1;
-    w += phi.f, w1 += phi.d * q.f, wJ += phi.d * slope;
-    w11 += phi.dd * q.f * q.f, w1J += phi.dd * q.f * slope + phi.d * q.d;
-    wJJ += phi.dd * slope * slope + phi.d * q.dd * i1;
-  }
-};
-
-}  // namespace detail
 
 /// A material of the first kind: a function at(p, I1, I2, J, threshold) of its parameters p.
 struct StVenantKirchhoff {
@@ -199,6 +155,24 @@ struct MooneyRivlin {
     r.add({c2 * (qq.f * i2 - Real(3)), c2 * qq.d * i2, c2 * qq.dd * i2});
     r.w2 = c2 * qq.f;
     r.w2J = c2 * qq.d;
+    r.add(volume.barrier(Real(0), Real(p[2])));
+    return r;
+  }
+};
+
+struct VerondaWestman {
+  template <class Real, class P>
+  SINEW_INLINE static detail::InvariantResponse<Real> at(P const& p, Real i1, Real i2, Real j,
+                                                         Real threshold) {
+    const Real c1(p[0]), c2(p[1]), m = Real(-0.5) * c1 * c2;
+    const detail::Continued<Real> volume(j, threshold);
+    const auto q = volume.power(lane_scalar<Real>(-2) / 3), qq = q.square();
+    const auto e = detail::exponential(Real(c2 * (q.f * i1 - Real(3))));
+    detail::InvariantResponse<Real> r;
+    r.add({c1 * (e.f - Real(1)), c1 * c2 * e.d, c1 * c2 * c2 * e.dd}, q, i1);
+    r.add({m * (qq.f * i2 - Real(3)), m * qq.d * i2, m * qq.dd * i2});
+    r.w2 = m * qq.f;
+    r.w2J = m * qq.d;
     r.add(volume.barrier(Real(0), Real(p[2])));
     return r;
   }
@@ -388,7 +362,9 @@ struct Ogden {
   }
 };
 
-/// Moduli of shape and of volume in the rest shape [Pa].
+/// Moduli of shape and of volume in the rest shape [Pa], of what has no directions: all of a material without
+/// directions, what is around the fibres of HolzapfelGasserOgden, and of Costa what its smallest coefficient
+/// has in all directions.
 struct RestModuli {
   double shear, bulk;
 };
@@ -403,13 +379,30 @@ template <class Real>
 struct Hyperelastic {
   using Scalar = lane_scalar<Real>;
   HyperelasticMaterial material = HyperelasticMaterial::ArrudaBoyce;
-  std::array<Scalar, 7> p{};
+  std::array<Scalar, 8> p{};
   int terms = 1;  // of Ogden
+  std::array<Scalar, 6>
+      along{};       // HolzapfelGasserOgden's: unit vectors of the fibres, in axes of the element
+  int families = 0;  // of fibres
   Scalar threshold = Scalar(0.3);
 
   SINEW_HD bool byStretches() const { return material == HyperelasticMaterial::Ogden; }
+  SINEW_HD bool byDirections() const { return has_directions(material); }
 
-  /// Not for those by stretches.
+  /// How many terms the energy of a material with directions has.
+  SINEW_HD int directed() const { return material == HyperelasticMaterial::Costa ? 1 : 1 + families; }
+  /// The mth measure K of the strain C = F'F that they depend on.
+  SINEW_HD DirectedStrain<Real> strain(int m, Mat<Real, 3> const& c) const {
+    if (material == HyperelasticMaterial::Costa) return Costa::strain(p, c);
+    return HolzapfelGasserOgden::strain(p, along, m, c);
+  }
+  /// Their energy of it and of J, the first with what depends on J alone.
+  SINEW_HD detail::InvariantResponse<Real> byDirection(int m, Real k, Real j) const {
+    if (material == HyperelasticMaterial::Costa) return Costa::at(p, k, j, Real(threshold));
+    return HolzapfelGasserOgden::at(p, m, k, j, Real(threshold));
+  }
+
+  /// Not for those by stretches or directions.
   SINEW_HD detail::InvariantResponse<Real> byInvariants(Real i1, Real i2, Real j) const {
     const Real low(threshold);
     switch (material) {
@@ -421,6 +414,8 @@ struct Hyperelastic {
         return MooneyRivlin::at(p, i1, i2, j, low);
       case HyperelasticMaterial::StableNeoHookean:
         return StableNeoHookean::at(p, i1, i2, j, low);
+      case HyperelasticMaterial::VerondaWestman:
+        return VerondaWestman::at(p, i1, i2, j, low);
       default:
         return ArrudaBoyce::at(p, i1, i2, j, low);
     }
@@ -437,6 +432,8 @@ struct Hyperelastic {
 #if SINEW_DEFINES
 #include <sinew/core/error.hpp>
 
+#include <algorithm>
+
 namespace sinew {
 
 SINEW_ONCE RestModuli rest_moduli(HyperelasticMaterial material, std::vector<double> const& p) {
@@ -448,6 +445,15 @@ SINEW_ONCE RestModuli rest_moduli(HyperelasticMaterial material, std::vector<dou
     }
     case HyperelasticMaterial::MooneyRivlin:
       return {2 * (p[0] + p[1]), p[2]};
+    case HyperelasticMaterial::VerondaWestman:
+      return {p[0] * p[1], p[2]};
+    case HyperelasticMaterial::Costa: {
+      // d2W/dE2 = a diag(b) + k0 of the trace: with one b for all, a b = 2 G and a b + 3 k0 = 3 K
+      const double least = p[0] * *std::min_element(p.begin() + 2, p.end());
+      return {least / 2, p[1] + least / 3};
+    }
+    case HyperelasticMaterial::HolzapfelGasserOgden:
+      return {p[0], p[1]};
     case HyperelasticMaterial::Ogden: {
       double shear = 0;
       for (std::size_t i = 0; i + 1 < p.size(); i += 2) shear += p[i] / 2;
@@ -470,6 +476,36 @@ SINEW_ONCE void check_hyperelastic(std::string const& where, HyperelasticMateria
       if (p[i] == 0)
         throw Error(
             where, text("ParameterSet[", i, "] is 0, but an exponent alpha of Ogden must be another number"));
+  auto mustBePositive = [&](std::size_t i, std::string_view parameter) {
+    if (!(p[i] > 0))
+      throw Error(where,
+                  text("ParameterSet[",
+                       i,
+                       "] is ",
+                       p[i],
+                       ", but ",
+                       parameter,
+                       " of ",
+                       name,
+                       " must be greater than 0"));
+  };
+  if (material == HyperelasticMaterial::VerondaWestman) mustBePositive(0, "c1"), mustBePositive(1, "c2");
+  if (material == HyperelasticMaterial::Costa) {
+    constexpr std::array<std::string_view, 8> parameters{"a", "k0", "bff", "bfs", "bss", "bfn", "bsn", "bnn"};
+    for (std::size_t i = 0; i < p.size(); ++i) mustBePositive(i, parameters[i]);
+  }
+  if (material == HyperelasticMaterial::HolzapfelGasserOgden) {
+    mustBePositive(3, "k2");
+    if (!(p[2] >= 0))
+      throw Error(where, text("ParameterSet[2] is ", p[2], ", but k1 of ", name, " must not be less than 0"));
+    if (!(p[4] >= 0 && p[4] <= 1. / 3))
+      throw Error(where,
+                  text("ParameterSet[4] is ",
+                       p[4],
+                       ", but kappa of ",
+                       name,
+                       " must be from 0, all fibres in one direction, to 1/3, as many in all directions"));
+  }
   const auto [shear, bulk] = rest_moduli(material, p);
   if (!(shear > 0) || !(bulk > 0))
     throw Error(where,

@@ -4,6 +4,7 @@
 #include <sinew/core/component.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/force/hyperelastic_material.hpp>
+#include <sinew/force/material_axes.hpp>
 #include <sinew/force/singular_values.hpp>
 #include <sinew/force/tetrahedron_rest.hpp>
 
@@ -16,11 +17,13 @@ namespace sinew {
 /// Linear tetrahedron of a hyperelastic material, total Lagrangian. With F = sum_k x_k g_k', g_k the gradient
 /// of shape function k at rest:
 ///   E = V W(F) [J],   f_k = -V P g_k [N],   P = dW/dF,   df_i/dx_j = -V (d2W/dF2 : . g_j) g_i
-/// Two ways lead to P and to the second derivative. By invariants, where P = 2 W1 F + 2 W2 (I1 F - F F'F) +
+/// Three ways lead to P and to the second derivative. By invariants, where P = 2 W1 F + 2 W2 (I1 F - F F'F) +
 /// WJ cof F; and by the singular values F = U diag(s) V', in whose axes the second derivative falls into one
 /// block of 3 x 3 for stretches and six numbers for rotations (Smith, de Goes, Kim 2019). The latter is taken
 /// for materials that are given by stretches, and to make the tangent positive semi-definite: what is
-/// negative of the eigenvalues becomes 0 (Teran et al. 2005).
+/// negative of the eigenvalues becomes 0 (Teran et al. 2005). Materials with directions go by measures K of
+/// F'F, P = 2 WK F T + WJ cof F with T = dK/d(F'F), in the axes of the element: in these its gradients g_k
+/// are written, and F with them.
 template <class D>
 struct TetrahedronHyperelasticity {
   using Real = typename D::Real;
@@ -43,13 +46,23 @@ struct TetrahedronHyperelasticity {
     const Mat3 f = deformation_gradient(rest, x);
     if (material.byStretches()) return rest.volume * material.at(singular_values(f).sigma).w;
     const Mat3 cof = cofactor(f);
+    if (material.byDirections()) {
+      const Mat3 c = squared(f);
+      const Real j = dot3(Vec3(f.col(0)), Vec3(cof.col(0)));
+      Real sum(0);
+      for (int m = 0; m < material.directed(); ++m)
+        sum += material.byDirection(m, material.strain(m, c).k, j).w;
+      return rest.volume * sum;
+    }
     return rest.volume *
            material.byInvariants(square(f), square(cof), dot3(Vec3(f.col(0)), Vec3(cof.col(0)))).w;
   }
 
   SINEW_HD void force(Rest const& rest, Coord const (&x)[4], Deriv const (&)[4], Deriv (&f)[4],
                       Tangent& tangent) const {
-    if (definite || material.byStretches())
+    if (material.byDirections())
+      forceByDirections(rest, x, f, tangent);
+    else if (definite || material.byStretches())
       forceByStretches(rest, x, f, tangent);
     else
       forceByInvariants(rest, x, f, tangent);
@@ -98,6 +111,13 @@ struct TetrahedronHyperelasticity {
     for (int i = 0; i < 9; ++i) sum += a(i) * a(i);
     return sum;
   }
+  // F'F
+  SINEW_INLINE static Mat3 squared(Mat3 const& f) {
+    Mat3 c;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j <= i; ++j) c(i, j) = c(j, i) = dot3(Vec3(f.col(i)), Vec3(f.col(j)));
+    return c;
+  }
   SINEW_INLINE static Mat3 cofactor(Mat3 const& f) {
     Mat3 cof;
     for (int c = 0; c < 3; ++c) cof.col(c) = cross3(Vec3(f.col((c + 1) % 3)), Vec3(f.col((c + 2) % 3)));
@@ -138,15 +158,87 @@ struct TetrahedronHyperelasticity {
             if (r == c) sum += diagonal;
             k(r, c) = -rest.volume * sum;
           }
-        if (p == q) continue;
-        // d2J/dx_p dx_q: 1/(6 V) times the cross product with the edge from point 0 to the third point
-        const int third = 3 - p - q;
-        const Vec3 edge = (x[third + 1] - x[0]) * (w.wJ * Real(q - p == 1 ? 1 : -1) / Real(6));
-        for (int i = 0; i < 3; ++i) {
-          k((i + 2) % 3, (i + 1) % 3) += edge[i];
-          k((i + 1) % 3, (i + 2) % 3) -= edge[i];
-        }
+        if (p != q) addCurvatureOfVolume(tangent, x, p, q, w.wJ);
       }
+  }
+
+  // -V wJ d2J/dx_p dx_q, p < q: 1/(6 V) times the cross product with the edge from point 0 to the third point
+  SINEW_INLINE static void addCurvatureOfVolume(Tangent& tangent, Coord const (&x)[4], int p, int q,
+                                                Real wJ) {
+    Mat3& k = tangent.k[pairNumber(p, q)];
+    const int third = 3 - p - q;
+    const Vec3 edge = (x[third + 1] - x[0]) * (wJ * Real(q - p == 1 ? 1 : -1) / Real(6));
+    for (int i = 0; i < 3; ++i) {
+      k((i + 2) % 3, (i + 1) % 3) += edge[i];
+      k((i + 1) % 3, (i + 2) % 3) -= edge[i];
+    }
+  }
+
+  SINEW_HD void forceByDirections(Rest const& rest, Coord const (&x)[4], Deriv (&force)[4],
+                                  Tangent& tangent) const {
+    const Mat3 f = deformation_gradient(rest, x), cof = cofactor(f), c = squared(f);
+    const Real j = dot3(Vec3(f.col(0)), Vec3(cof.col(0)));
+    Vec3 g[3], dJ[3];
+    for (int k = 0; k < 3; ++k) {
+      g[k] = rest.gradient.col(k);
+      dJ[k] = times(cof, g[k]);
+      for (int i = 0; i < 3; ++i) force[k + 1][i] = Real(0);
+    }
+    for (Mat3& k : tangent.k) k.setZero();
+    Real wJ(0), wJJ(0);
+    for (int m = 0; m < material.directed(); ++m) {
+      const auto strain = material.strain(m, c);
+      const auto w = material.byDirection(m, strain.k, j);
+      wJ += w.wJ;
+      wJJ += w.wJJ;
+      Vec3 tg[3], dK[3];
+      for (int k = 0; k < 3; ++k) {
+        tg[k] = times(strain.t, g[k]);
+        dK[k] = times(f, tg[k]) * Real(2);
+        for (int i = 0; i < 3; ++i) force[k + 1][i] -= rest.volume * w.w1 * dK[k][i];
+      }
+      for (int p = 0; p < 3; ++p)
+        for (int q = p; q < 3; ++q) {
+          Mat3& k = tangent.k[pairNumber(p, q)];
+          const Real diagonal = Real(2) * w.w1 * dot3(g[p], tg[q]);
+          const Vec3 right = dK[q] * w.w11 + dJ[q] * w.w1J;
+          for (int b = 0; b < 3; ++b)
+            for (int a = 0; a < 3; ++a) {
+              Real sum = dK[p][a] * right[b] + dJ[p][a] * w.w1J * dK[q][b];
+              if (a == b) sum += diagonal;
+              k(a, b) -= rest.volume * sum;
+            }
+          if (strain.curved) addCurvatureOfStrain(k, f, strain.b, g[p], g[q], rest.volume * w.w1);
+        }
+    }
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) force[k + 1][i] -= rest.volume * wJ * dJ[k][i];
+    for (int p = 0; p < 3; ++p)
+      for (int q = p; q < 3; ++q) {
+        Mat3& k = tangent.k[pairNumber(p, q)];
+        for (int b = 0; b < 3; ++b)
+          for (int a = 0; a < 3; ++a) k(a, b) -= rest.volume * wJJ * dJ[p][a] * dJ[q][b];
+        if (p != q) addCurvatureOfVolume(tangent, x, p, q, wJ);
+      }
+  }
+
+  // -s F M F' where T changes with C: M_ij = b_ij g_pj g_qi, and on the diagonal sum_j b_ij g_pj g_qj beside
+  // it
+  SINEW_INLINE static void addCurvatureOfStrain(Mat3& k, Mat3 const& f, Mat3 const& b, Vec3 const& gp,
+                                                Vec3 const& gq, Real s) {
+    Mat3 m, fm;
+    for (int i = 0; i < 3; ++i) {
+      Real sum(0);
+      for (int j = 0; j < 3; ++j) {
+        m(i, j) = b(i, j) * gp[j] * gq[i];
+        sum += b(i, j) * gp[j] * gq[j];
+      }
+      m(i, i) += sum;
+    }
+    for (int i = 0; i < 3; ++i) fm.col(i) = times(f, Vec3(m.col(i)));
+    for (int a = 0; a < 3; ++a)
+      for (int c = 0; c < 3; ++c)
+        k(a, c) -= s * (fm(a, 0) * f(c, 0) + fm(a, 1) * f(c, 1) + fm(a, 2) * f(c, 2));
   }
 
   SINEW_HD void forceByStretches(Rest const& rest, Coord const (&x)[4], Deriv (&force)[4],
@@ -203,7 +295,11 @@ struct TetrahedronHyperelasticity {
 };
 
 /// A hyperelastic body, for large strains, of tetrahedra: those of the topology, or six in each of its
-/// hexahedra where it has none.
+/// hexahedra where it has none. Materials with directions take them from the axes f, s and n of each element,
+/// at rest: x, y and z, or where `fiberDirections` says so f along the fibres, s in the plane of
+/// `sheetDirections` and square to f, n square to both. HolzapfelGasserOgden has a family of fibres along f,
+/// or one along each of `AnisotropyDirections`, which are written in these axes: "0.8 0.6 0 0.8 -0.6 0" are
+/// two helices around f.
 template <class D>
 struct TetrahedronHyperelasticityFEMForceField {
   using Role = role::ForceField;
@@ -216,6 +312,9 @@ struct TetrahedronHyperelasticityFEMForceField {
 
   HyperelasticMaterial materialName = HyperelasticMaterial::ArrudaBoyce;
   std::vector<double> parameterSet{};
+  std::vector<Eigen::Vector3d> anisotropyDirections{};
+  std::vector<Eigen::Vector3d> fiberDirections{};
+  std::vector<Eigen::Vector3d> sheetDirections{};
   bool matrixRegularization = false;
   double continuedBelow = 0.3;
 
@@ -225,14 +324,33 @@ struct TetrahedronHyperelasticityFEMForceField {
         field("materialName", &F::materialName, "", "energy of the material"),
         field("ParameterSet",
               &F::parameterSet,
-              "Pa, alpha without unit",
+              "Pa, alpha, c2, b, k2 and kappa without unit",
               "its parameters: mu k0 of ArrudaBoyce; mu lambda of StVenantKirchhoff, NeoHookean and "
-              "StableNeoHookean; c1 c2 k0 of MooneyRivlin; mu1 alpha1 [mu2 alpha2 [mu3 alpha3]] k0 of Ogden"),
+              "StableNeoHookean; c1 c2 k0 of MooneyRivlin (c2 in Pa) and VerondaWestman; mu1 alpha1 [mu2 "
+              "alpha2 "
+              "[mu3 alpha3]] k0 of Ogden; a k0 bff bfs bss bfn bsn bnn of Costa; mu k0 k1 k2 kappa of "
+              "HolzapfelGasserOgden"),
+        field("AnisotropyDirections",
+              &F::anisotropyDirections,
+              "",
+              "direction of each family of fibres of HolzapfelGasserOgden, one or two, in the axes of the "
+              "elements; none: f"),
+        field("fiberDirections",
+              &F::fiberDirections,
+              "",
+              "direction of axis f at rest, one for all elements or one for each, or for each hexahedron; "
+              "none: x")
+            .oneEach(Of::volumes),
+        field("sheetDirections",
+              &F::sheetDirections,
+              "",
+              "direction in the plane of axes f and s, as many; none: some direction square to f")
+            .oneEach(Of::volumes),
         field("matrixRegularization",
               &F::matrixRegularization,
               "",
               "keep the tangent of each element positive semi-definite: Newton's steps go downhill, and "
-              "converge slower where it is not"),
+              "converge slower where it is not; not for materials with directions"),
         field("continuedBelow",
               &F::continuedBelow,
               "",
@@ -251,7 +369,16 @@ struct TetrahedronHyperelasticityFEMForceField {
     const std::string where =
         text(context.where, ": ", component_name<TetrahedronHyperelasticityFEMForceField>());
     check_hyperelastic(where, materialName, parameterSet);
-    init_tetrahedra<D>(where, driver, context);
+    auto const& topology = context.topology;
+    const bool cut = topology.tetrahedra.empty();
+    check_directions(
+        where,
+        {materialName, matrixRegularization, anisotropyDirections, fiberDirections, sheetDirections},
+        cut ? topology.hexahedra.size() : topology.tetrahedra.size(),
+        cut ? "hexahedra" : "tetrahedra");
+    init_tetrahedra<D>(where, driver, context, [&](std::size_t e) {
+      return axes_of(where, fiberDirections, sheetDirections, cut ? e / 6 : e);
+    });
   }
 
   template <class Law = typename Driver::Law>
@@ -262,6 +389,13 @@ struct TetrahedronHyperelasticityFEMForceField {
     law.material.terms = int(parameterSet.size() - 1) / 2;
     law.material.threshold = Real(continuedBelow);
     std::copy(parameterSet.begin(), parameterSet.end(), law.material.p.begin());
+    law.material.families = std::max(1, int(anisotropyDirections.size()));
+    for (std::size_t a = 0; a < std::size_t(law.material.families); ++a) {
+      const Eigen::Vector3d along = anisotropyDirections.empty()
+                                        ? Eigen::Vector3d::UnitX()
+                                        : Eigen::Vector3d(anisotropyDirections[a].normalized());
+      for (std::size_t i = 0; i < 3; ++i) law.material.along[3 * a + i] = Real(along[long(i)]);
+    }
     return law;
   }
 };

@@ -73,10 +73,11 @@ std::vector<Tetrahedron> tetrahedra_of(std::string const& where, InitContext<D> 
   return tetrahedra;
 }
 
-/// Gives them to a driver, and returns them. Throws Error also at one that is flat or inside out.
-template <class D, class Driver>
+/// Gives them to a driver, and returns them. Throws Error also at one that is flat or inside out. Gradients
+/// are written in the axes of each, of which axes(e) gives the unit vectors as columns.
+template <class D, class Driver, class Axes>
 std::vector<Tetrahedron> init_tetrahedra(std::string const& where, Driver& driver,
-                                         InitContext<D> const& context) {
+                                         InitContext<D> const& context, Axes const& axes) {
   using Real = typename D::Real;
   auto const& points = context.rest;
   std::vector<Tetrahedron> tetrahedra = tetrahedra_of(where, context);
@@ -88,10 +89,18 @@ std::vector<Tetrahedron> init_tetrahedra(std::string const& where, Driver& drive
     for (int c = 0; c < 3; ++c)
       edges.col(c) =
           (points[std::size_t(t[std::size_t(c) + 1])] - points[std::size_t(t[0])]).template cast<double>();
-    rest.push_back({edges.inverse().transpose().template cast<Real>(), Real(edges.determinant() / 6)});
+    const Mat<double, 3> turned = axes(rest.size()).transpose() * edges.inverse().transpose();
+    rest.push_back({turned.template cast<Real>(), Real(edges.determinant() / 6)});
   }
   driver.init({tetrahedra.begin(), tetrahedra.end()}, rest);
   return tetrahedra;
+}
+/// The same in the axes of space.
+template <class D, class Driver>
+std::vector<Tetrahedron> init_tetrahedra(std::string const& where, Driver& driver,
+                                         InitContext<D> const& context) {
+  return init_tetrahedra<D>(
+      where, driver, context, [](std::size_t) -> Mat<double, 3> { return Mat<double, 3>::Identity(); });
 }
 
 }  // namespace sinew

@@ -2,7 +2,8 @@
 #pragma once
 
 // A program that includes this in one of its sources reads files that are compressed by gzip, whatever their
-// name, and compresses states that are written to a name that ends in ".gz". It is linked with zlib (-lz).
+// name, and VTK's XML whose arrays are compressed by zlib, and compresses states that are written to a name
+// that ends in ".gz". It is linked with zlib (-lz).
 #include <sinew/core/error.hpp>
 #include <sinew/core/memory_limit.hpp>
 #include <sinew/io/text_reader.hpp>
@@ -62,6 +63,32 @@ __attribute__((used)) inline std::string unpack_gzip(std::string const& path, st
     bytes.append(part.data(), found);
     whole = result == Z_STREAM_END;
   }
+  return bytes;
+}
+
+/// The `size` bytes of one stream of zlib. Throws Error at `where` where it is damaged or holds another
+/// number.
+__attribute__((used)) inline std::string unpack_zlib(std::string const& where, std::string_view packed,
+                                                     std::size_t size) {
+  constexpr std::size_t most = 1032;  // bytes that one can unpack to
+  std::string bytes;
+  uLongf n = 0;
+  if (size / most <= packed.size()) {
+    bytes.resize(size);
+    n = uLongf(size);
+    if (::uncompress(reinterpret_cast<Bytef*>(bytes.data()),
+                     &n,
+                     reinterpret_cast<Bytef const*>(packed.data()),
+                     uLong(packed.size())) != Z_OK)
+      n = uLongf(size) + 1;
+  }
+  if (std::size_t(n) != size || bytes.size() != size)
+    throw Error(where,
+                text("a block of ",
+                     packed.size(),
+                     " bytes is not zlib's, or does not unpack to the ",
+                     size,
+                     " that are announced; get the file again"));
   return bytes;
 }
 

@@ -13,7 +13,7 @@ namespace sinew::io {
 std::string file_ending(std::string_view path);
 
 /// Reads a mesh by the ending of its name, letter case ignored: .msh (Gmsh), .obj (Wavefront), .stl
-/// (stereolithography) or .vtk (legacy VTK). `others` names the endings that the caller knows beside these.
+/// (stereolithography), .ply (Stanford) or .vtk (legacy VTK). `others` names the endings that the caller knows beside these.
 /// Throws Error on any other ending, and as the reader of the format does.
 Mesh read_text_mesh(std::string const& path, std::string_view others = "");
 
@@ -22,6 +22,7 @@ Mesh read_text_mesh(std::string const& path, std::string_view others = "");
 #if SINEW_DEFINES
 #include <sinew/io/read_gmsh.hpp>
 #include <sinew/io/read_obj.hpp>
+#include <sinew/io/read_ply.hpp>
 #include <sinew/io/read_stl.hpp>
 #include <sinew/io/read_vtk.hpp>
 
@@ -37,12 +38,13 @@ SINEW_ONCE Mesh read_text_mesh(std::string const& path, std::string_view others)
   if (ending == ".msh") return read_gmsh(path);
   if (ending == ".obj") return read_obj(path);
   if (ending == ".stl") return read_stl(path);
+  if (ending == ".ply") return read_ply(path);
   if (ending == ".vtk") return read_vtk(path);
   throw Error(
       path,
       text(ending.empty() ? "has no ending that tells its format"
                           : text("files ending in ", in_quotes(ending), " are not read"),
-           "; the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .vtk (VTK)",
+           "; the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply (Stanford), .vtk (VTK)",
            others));
 }
 

@@ -23,6 +23,9 @@ std::string read_file(std::string const& path);
 /// io/gzip.hpp somewhere.
 __attribute__((weak)) std::string unpack_gzip(std::string const& path, std::string_view packed);
 __attribute__((weak)) std::string pack_gzip(std::string_view bytes);
+/// The `size` bytes of a stream of zlib, likewise.
+__attribute__((weak)) std::string unpack_zlib(std::string const& where, std::string_view packed,
+                                              std::size_t size);
 /// Whether the program has one of them.
 template <class F>
 bool is_there(F* function) {

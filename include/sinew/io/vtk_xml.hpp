@@ -2,6 +2,7 @@
 #pragma once
 
 // Needs pugixml, which most of sinew/io/ does not.
+#include <sinew/core/memory_limit.hpp>
 #include <sinew/io/base64.hpp>
 #include <sinew/io/text_reader.hpp>
 
@@ -13,8 +14,8 @@
 namespace sinew::io {
 
 /// A VTK file in XML and the arrays in it, as "VTK File Formats" (Kitware) describes them: ascii, inline
-/// base64, appended raw or base64, uncompressed. Functions throw Error at "path:line". `content` must outlive
-/// it.
+/// base64, appended raw or base64, and where the program includes io/gzip.hpp compressed by zlib. Functions
+/// throw Error at "path:line". `content` must outlive it.
 class VtkXml {
  public:
   using Node = pugi::xml_node;
@@ -69,12 +70,12 @@ class VtkXml {
   std::vector<T> values(Node array) {
     const std::string_view format = array.attribute("format").value(), source = content(array);
     if (format == "ascii") return asciiValues<T>(source);
-    if (!compressor_.empty())
+    if (!compressor_.empty() && (compressor_ != "vtkZLibDataCompressor" || !is_there(&unpack_zlib)))
       throw Error(at(array),
                   text("is compressed with ",
                        in_quotes(compressor_),
                        "; save it uncompressed (ParaView: Save Data, Compressor Type: None)"));
-    if (format == "binary") return convert<T>(array, bytes(array, source, true));
+    if (format == "binary") return convert<T>(array, bytes(array, source, true).unpacked);
     if (format != "appended")
       throw Error(at(array),
                   text("format is ", in_quotes(format), R"(; expected "ascii", "binary" or "appended")"));
@@ -87,18 +88,23 @@ class VtkXml {
                        appended_.size(),
                        " bytes of <AppendedData>; get a complete file"));
     const std::string_view encoding = root().child("AppendedData").attribute("encoding").value();
-    const std::string own = bytes(array, appended_.substr(offset), encoding != "raw");
+    const Bytes own = bytes(array, appended_.substr(offset), encoding != "raw");
     // a thousand arrays at one place would make a small file a large mesh
-    used_ += own.size();
+    used_ += own.inFile;
     if (used_ > appended_.size())
       throw Error(at(array),
                   text("with this array the arrays have more than the ",
                        appended_.size(),
                        " bytes of <AppendedData>; write the file again, each array at an offset of its own"));
-    return convert<T>(array, own);
+    return convert<T>(array, own.unpacked);
   }
 
  private:
+  struct Bytes {
+    std::string unpacked{};
+    std::size_t inFile = 0;
+  };
+
   std::string at(std::ptrdiff_t offset) const {
     return text(path_, ':', lineOf(std::size_t(std::max<std::ptrdiff_t>(offset, 0))));
   }
@@ -160,24 +166,60 @@ class VtkXml {
     return list;
   }
 
-  // encoded data are the number of bytes, then the bytes
-  std::string bytes(Node array, std::string_view source, bool base64) const {
+  // encoded data are the number of bytes, then the bytes; compressed ones the number of blocks, their size,
+  // that of the last one, if it is smaller, and the size of each when it is compressed, then the blocks
+  Bytes bytes(Node array, std::string_view source, bool base64) const {
     if (source.find_first_not_of(" \t\r\n") == source.npos) return {};
-    auto first = [&](std::size_t n) {
-      return base64 ? decode_base64(source, n).bytes : std::string(source.substr(0, n));
+    auto first = [&](std::uint64_t n) {
+      if (n > source.size()) return std::string();
+      return base64 ? decode_base64(source, std::size_t(n)).bytes
+                    : std::string(source.substr(0, std::size_t(n)));
     };
-    const std::string header = first(headerSize_);
-    if (header.size() == headerSize_) {
-      const std::uint64_t n =
-          headerSize_ == 8 ? load<std::uint64_t>(header.data()) : load<std::uint32_t>(header.data());
-      if (n <= source.size())
-        if (const std::string all = first(headerSize_ + std::size_t(n)); all.size() == headerSize_ + n)
-          return all.substr(headerSize_);
+    auto entry = [&](std::string const& header, std::size_t i) -> std::uint64_t {
+      char const* const from = header.data() + i * headerSize_;
+      return headerSize_ == 8 ? load<std::uint64_t>(from) : load<std::uint32_t>(from);
+    };
+    const std::string head = first(headerSize_);
+    const std::uint64_t n = head.size() == headerSize_ ? entry(head, 0) : source.size() + 1;
+    if (n <= source.size() && compressor_.empty()) {
+      if (const std::string all = first(headerSize_ + n); all.size() == headerSize_ + n)
+        return {all.substr(headerSize_), std::size_t(n)};
+    } else if (n <= source.size()) {
+      const std::uint64_t size = headerSize_ * (n == 0 ? 1 : 3 + n);
+      const std::string header = first(size);
+      std::uint64_t packed = 0;
+      if (header.size() == size) {
+        for (std::size_t i = 0; i < n; ++i)
+          packed += std::min<std::uint64_t>(entry(header, 3 + i), source.size());
+        if (const std::string all = first(size + packed); all.size() == size + packed)
+          return {
+              unpack(array, header, std::string_view(all).substr(std::size_t(size)), std::size_t(n), entry),
+              std::size_t(size + packed)};
+      }
     }
     throw Error(at(array),
                 text("the data are ",
                      base64 ? "not base64, or " : "",
                      "fewer bytes than they announce; get a complete file"));
+  }
+
+  template <class Entry>
+  std::string unpack(Node array, std::string const& header, std::string_view packed, std::size_t blocks,
+                     Entry const& entry) const {
+    std::string all;
+    for (std::size_t i = 0; i < blocks; ++i) {
+      const auto size = std::size_t(entry(header, 3 + i));
+      const std::uint64_t last = entry(header, 2),
+                          whole = i + 1 == blocks && last > 0 ? last : entry(header, 1);
+      if (whole > memory_limit || all.size() + whole > memory_limit)
+        throw Error(at(array),
+                    text("unpacks to more than ",
+                         memory_text(double(memory_limit)),
+                         "; name a smaller file, or raise memory_limit"));
+      all += unpack_zlib(at(array), packed.substr(0, size), std::size_t(whole));
+      packed.remove_prefix(size);
+    }
+    return all;
   }
 
   template <class S>

@@ -11,7 +11,7 @@ namespace sinew {
 
 /// The same mass at every point: `vertexMass`, or `totalMass` shared out evenly. Rigid bodies have a mass and
 /// an inertia in body axes; `totalMass` scales both. In space they may take it from a file: SOFA's .rigid, or
-/// a closed surface (.obj, .stl, .msh, .vtk) around the origin, filled evenly with 1 kg or `totalMass`.
+/// a closed surface (.obj, .stl, .ply, .msh, .vtk) around the origin, filled evenly with 1 kg or `totalMass`.
 template <class D>
 struct UniformMass {
   using Role = role::Mass;

@@ -91,7 +91,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"GenerateSphere", "isBezierTetrahedronRational"}, {"GenerateSphere", "isBezierTriangleRational"},
     {"VolumeFromTriangles", "update"}, {"VolumeFromVolumetricElements", "update"}, {"HausdorffDistance", "update"},
     {"Vertex2Frame", "texCoords"}, {"VoxelGridLoader", "segmentationHeader"}, {"MeshOffLoader", "polygons"},
-    {"MeshOffLoader", "polylines"}, {"GIDMeshLoader", "polygons"}, {"GIDMeshLoader", "polylines"}, {"MeshTrianLoader", "polygons"},
+    {"MeshOffLoader", "polylines"}, {"MeshPLYLoader", "polygons"}, {"MeshPLYLoader", "polylines"}, {"GIDMeshLoader", "polygons"}, {"GIDMeshLoader", "polylines"}, {"MeshTrianLoader", "polygons"},
     {"MeshTrianLoader", "polylines"},
     {"MeshTrianLoader", "edgesOnBorder"},
     {"MeshTrianLoader", "neighborTable"}, {"MeshTrianLoader", "trianglesOnBorderList"},
@@ -130,10 +130,11 @@ struct NotSimulated {
   std::string_view className, attribute, standard;
 };
 inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
+    {"RigidDistanceGridCollisionModel", "sampling", "0"}, {"RigidDistanceGridCollisionModel", "dumpfilename", ""},
     {"AverageCoord", "vecId", "1"}, {"ClusteringEngine", "outFile", ""}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
     {"GenerateCylinder", "BezierTriangleDegree", ""}, {"GenerateSphere", "BezierTetrahedronDegree", ""},
     {"GenerateSphere", "BezierTriangleDegree", ""}, {"MeshTrianLoader", "trian2", "0"},
-    {"", "AnisotropyDirections", ""}, {"", "box", ""},
+    {"", "box", ""},
     {"", "cauchyStress", "[ 0 0 0 , 0 0 0 , 0 0 0]"}, {"", "clamp", "0"},
     {"", "compute_mapping_inertia", "0"}, {"", "computePointList", "1"},
     {"", "computeWeightsFromPosition", "0"}, {"", "contactRestitution", "0"},

@@ -117,7 +117,7 @@ class SceneWriter {
         if (isFile) {
           std::string names;
           for (std::string const& name : field.fileNames(value))
-            names += text(names.empty() ? "" : " ", absolute(name));
+            names += text(names.empty() ? "" : " ", name.starts_with('#') ? name : absolute(name));
           value = names;
         }
         if (follows != live_.end() && follows->second.count(std::string(field.name))) continue;

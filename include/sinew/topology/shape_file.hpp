@@ -3,17 +3,21 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/data_types.hpp>
+#include <sinew/core/mesh.hpp>
 
 #include <string>
 #include <vector>
 
 namespace sinew {
 
-/// The points of a mesh: .msh, .obj, .stl or .vtk. Throws Error where the file cannot be read.
+/// The points of a mesh: .msh, .obj, .stl, .ply or .vtk. Throws Error where the file cannot be read.
 std::vector<Eigen::Vector3d> points_in_file(std::string const& path);
 
+/// The surface in such a file: its points, triangles and quads.
+Mesh surface_in_file(std::string const& path);
+
 /// Mass and inertia of a rigid body: those that SOFA's .rigid says, or those of 1 kg that fills a closed
-/// surface around the origin (.msh, .obj, .stl, .vtk) evenly. Throws Error where the file cannot be read,
+/// surface around the origin (.msh, .obj, .stl, .ply, .vtk) evenly. Throws Error where the file cannot be read,
 /// where the surface is not closed, and where its centre of mass is not at the origin.
 RigidMass<double, 3> rigid_mass_in_file(std::string const& path);
 
@@ -31,6 +35,8 @@ namespace sinew {
 SINEW_ONCE std::vector<Eigen::Vector3d> points_in_file(std::string const& path) {
   return io::read_text_mesh(path).positions;
 }
+
+SINEW_ONCE Mesh surface_in_file(std::string const& path) { return io::read_text_mesh(path); }
 
 SINEW_ONCE RigidMass<double, 3> rigid_mass_in_file(std::string const& path) {
   if (io::file_ending(path) == ".rigid") return io::read_rigid(path);

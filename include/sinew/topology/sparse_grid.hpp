@@ -16,7 +16,7 @@ template <class T, class... More>
 constexpr auto sparse_grid_fields(More... more) {
   return field_list(
       field("n", &T::n, "", "points along x, y and z of the grid of which cells are kept", range::atLeast(2)),
-      field("fileTopology", &T::fileTopology, "", "a file with the surface (.obj, .stl, .msh, .vtk)")
+      field("fileTopology", &T::fileTopology, "", "a file with the surface (.obj, .stl, .ply, .msh, .vtk)")
           .also("filename"),
       field("position", &T::position, "m", "points of the surface, where there is no file"),
       field("triangles", &T::triangles, "", "triangles of the surface", range::nonNegative),

@@ -115,6 +115,7 @@ class BakeComponents {
 
   std::string file(Node& node, Entry& entry, std::string const& path) {
     namespace fs = std::filesystem;
+    if (path.starts_with('#')) return text('{', cpp_literal(path), '}');  // a shape, no file
     if (options_.embed)
       throw Error(
           entry.origin.empty() ? node.path() : entry.origin,

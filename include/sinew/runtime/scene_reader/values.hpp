@@ -246,8 +246,9 @@ class SceneValues {
       const std::string folder = file ? file->folder : "";
       std::string found;
       for (std::string const& name : field.fileNames(value)) {
-        files.push_back(xml_.find(name, folder));
-        found += text(found.empty() ? "" : " ", files.back());
+        // SOFA's names of shapes, such as #cube, are no files
+        if (!name.starts_with('#')) files.push_back(xml_.find(name, folder));
+        found += text(found.empty() ? "" : " ", name.starts_with('#') ? name : files.back());
       }
       value = found;
     }
