@@ -87,6 +87,7 @@ struct BarycentricMapping {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
     TopologyView const& topology = parent.topology;
     check_element_indices(text(where, ": ", parent.where), topology, parent.rest.size());
+    check_first_order(text(where, ": ", parent.where), topology);
     std::vector<Eigen::Vector3d> points;
     points.reserve(parent.rest.size());
     if (topology.places.size() == parent.rest.size())
