@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/mesh.hpp>
+#include <sinew/topology/hexahedra.hpp>
 
 #include <array>
 #include <cstddef>
@@ -54,6 +55,21 @@ inline constexpr std::array<std::array<std::size_t, 3>, 12> quadraticHexahedronE
 inline constexpr std::size_t triquadraticFaces[6][4] = {
     {0, 4, 7, 3}, {1, 2, 6, 5}, {0, 1, 5, 4}, {3, 7, 6, 2}, {0, 3, 2, 1}, {4, 5, 6, 7}};
 
+/// Where the 27 nodes of a hexahedron are, in coordinates from -1 to 1.
+struct TriquadraticPlaces {
+  double at[27][3]{};
+
+  constexpr TriquadraticPlaces() {
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < 8; ++k) at[k][c] = 2. * hexahedronCorners[k][c] - 1;
+      for (auto const& [i, j, middle] : quadraticHexahedronEdges) at[middle][c] = (at[i][c] + at[j][c]) / 2;
+      for (std::size_t f = 0; f < 6; ++f)
+        at[20 + f][c] = (at[triquadraticFaces[f][0]][c] + at[triquadraticFaces[f][2]][c]) / 2;
+    }
+  }
+};
+inline constexpr TriquadraticPlaces triquadraticPlaces{};
+
 template <std::size_t N>
 constexpr std::size_t middle_of(std::array<std::array<std::size_t, 3>, N> const& edges, std::size_t a,
                                 std::size_t b) {
@@ -63,6 +79,31 @@ constexpr std::size_t middle_of(std::array<std::array<std::size_t, 3>, N> const&
 }
 
 }  // namespace detail
+
+/// The eight linear elements between all nodes, whose faces outside are the parts of faces below.
+constexpr std::array<Tetrahedron, 8> parts_of(QuadraticTetrahedron const& e) {
+  return {{{e[0], e[4], e[6], e[7]},
+           {e[4], e[1], e[5], e[8]},
+           {e[6], e[5], e[2], e[9]},
+           {e[7], e[8], e[9], e[3]},
+           {e[4], e[9], e[6], e[5]},
+           {e[4], e[9], e[7], e[6]},
+           {e[4], e[9], e[8], e[7]},
+           {e[4], e[9], e[5], e[8]}}};
+}
+constexpr std::array<Hexahedron, 8> parts_of(TriquadraticHexahedron const& e) {
+  std::array<Hexahedron, 8> parts{};
+  for (std::size_t p = 0; p < 8; ++p)
+    for (std::size_t k = 0; k < 8; ++k)
+      for (std::size_t node = 0; node < 27; ++node) {
+        bool here = true;
+        for (std::size_t c = 0; c < 3; ++c)
+          here = here && detail::triquadraticPlaces.at[node][c] ==
+                             hexahedronCorners[p][c] + hexahedronCorners[k][c] - 1;
+        if (here) parts[p][k] = e[node];
+      }
+  return parts;
+}
 
 /// Faces whose sides have a middle, by the nodes c of their corners and m of the sides behind them. Of a
 /// triangle four triangles; of a quad without a node inside four triangles and a quad; of one with the node

@@ -51,21 +51,6 @@ struct QuadraticTetrahedronShape {
 
 namespace detail {
 
-/// Where the 27 nodes of a hexahedron are, in coordinates from -1 to 1.
-struct TriquadraticPlaces {
-  double at[27][3]{};
-
-  constexpr TriquadraticPlaces() {
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < 8; ++k) at[k][c] = 2. * hexahedronCorners[k][c] - 1;
-      for (auto const& [i, j, middle] : quadraticHexahedronEdges) at[middle][c] = (at[i][c] + at[j][c]) / 2;
-      for (std::size_t f = 0; f < 6; ++f)
-        at[20 + f][c] = (at[triquadraticFaces[f][0]][c] + at[triquadraticFaces[f][2]][c]) / 2;
-    }
-  }
-};
-inline constexpr TriquadraticPlaces triquadraticPlaces{};
-
 /// Three Gauss points a direction: products of slopes and cofactors are of degree five in each coordinate.
 struct TriquadraticPoints {
   static constexpr std::size_t points = 27;
