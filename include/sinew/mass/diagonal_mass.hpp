@@ -155,7 +155,7 @@ struct DiagonalMass {
         for (auto const& e : elements) {
           Eigen::Matrix<double, 3, int(N)> nodes;
           for (std::size_t k = 0; k < N; ++k) nodes.col(Eigen::Index(k)) = at(e[k]);
-          const auto masses = lumped_mass<int(N)>(quadratic_mass<int(N)>(nodes));
+          const auto masses = lumped_mass<int(N)>(quadratic_mass(nodes));
           for (std::size_t k = 0; k < N; ++k) {
             size[std::size_t(e[k])] += masses[Eigen::Index(k)];
             alone[std::size_t(e[k])] = false;

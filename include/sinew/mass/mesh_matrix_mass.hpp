@@ -253,7 +253,7 @@ struct MeshMatrixMass {
     if (have(MassElements::pyramids, volumes)) collapsed(t.pyramids);
     if (have(MassElements::prisms, volumes)) collapsed(t.prisms);
     auto quadratic = [&]<std::size_t N>(std::span<std::array<Index, N> const> all) {
-      for (auto const& e : all) f(e, number++, quadratic_mass<int(N)>(cornersOf(e)));
+      for (auto const& e : all) f(e, number++, quadratic_mass(cornersOf(e)));
     };
     if (have(MassElements::quadraticTetrahedra, volumes)) quadratic(t.quadraticTetrahedra);
     if (have(MassElements::quadraticHexahedra, volumes)) quadratic(t.quadraticHexahedra);

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/compiled.hpp>
 #include <sinew/topology/element_shapes.hpp>
 #include <sinew/topology/hexahedra.hpp>
 #include <sinew/topology/quadratic_elements.hpp>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <array>
-#include <cmath>
 
 namespace sinew {
 
@@ -118,27 +118,30 @@ struct TriquadraticHexahedronShape : detail::TriquadraticPoints {
   }
 };
 
-template <std::size_t Nodes>
-struct QuadraticShapeOf;
-template <>
-struct QuadraticShapeOf<10> {
-  using type = QuadraticTetrahedronShape;
-};
-template <>
-struct QuadraticShapeOf<20> {
-  using type = QuadraticHexahedronShape;
-};
-template <>
-struct QuadraticShapeOf<27> {
-  using type = TriquadraticHexahedronShape;
-};
-
 /// The integrals of N_i N_j over an element of second order with these nodes. N_i N_j det J has degree nine
 /// at most in each coordinate of the cube, of which a tetrahedron is a part where opposite faces collapse to
 /// points: five Gauss points a direction are exact.
+Eigen::Matrix<double, 10, 10> quadratic_mass(Eigen::Matrix<double, 3, 10> const& x);
+Eigen::Matrix<double, 20, 20> quadratic_mass(Eigen::Matrix<double, 3, 20> const& x);
+Eigen::Matrix<double, 27, 27> quadratic_mass(Eigen::Matrix<double, 3, 27> const& x);
+
+/// A mass for each node of an element of which this is the consistent one. Row sums would be negative at the
+/// corners of quadratic elements; so the diagonal is, in proportion (Hinton, Rock, Zienkiewicz 1976).
 template <int Nodes>
-Eigen::Matrix<double, Nodes, Nodes> quadratic_mass(Eigen::Matrix<double, 3, Nodes> const& x) {
-  using OfElement = typename QuadraticShapeOf<std::size_t(Nodes)>::type;
+Eigen::Matrix<double, Nodes, 1> lumped_mass(Eigen::Matrix<double, Nodes, Nodes> const& consistent) {
+  return consistent.diagonal() * (consistent.sum() / consistent.trace());
+}
+
+}  // namespace sinew
+
+#if SINEW_DEFINES
+#include <Eigen/LU>
+#include <cmath>
+
+namespace sinew::detail {
+
+template <class Element, int Nodes>
+Eigen::Matrix<double, Nodes, Nodes> mass_of(Eigen::Matrix<double, 3, Nodes> const& x) {
   const double inner = std::sqrt(5 - 2 * std::sqrt(10. / 7)) / 3,
                outer = std::sqrt(5 + 2 * std::sqrt(10. / 7)) / 3, root = std::sqrt(70.);
   const double line[5] = {-outer, -inner, 0, inner, outer}, weights[5] = {(322 - 13 * root) / 900,
@@ -151,7 +154,7 @@ Eigen::Matrix<double, Nodes, Nodes> quadratic_mass(Eigen::Matrix<double, 3, Node
   for (int p = 0; p < 125; ++p) {
     std::array<double, 3> q{line[p % 5], line[p / 5 % 5], line[p / 25]};
     double weight = weights[p % 5] * weights[p / 5 % 5] * weights[p / 25];
-    if constexpr (OfElement::collapsed) {
+    if constexpr (Element::collapsed) {
       const double u = (1 + q[0]) / 2, v = (1 + q[1]) / 2, w = (1 + q[2]) / 2;
       weight *= (1 - u) * (1 - u) * (1 - v) / 8;
       q = {u, v * (1 - u), w * (1 - u) * (1 - v)};
@@ -159,8 +162,8 @@ Eigen::Matrix<double, Nodes, Nodes> quadratic_mass(Eigen::Matrix<double, 3, Node
     Eigen::Matrix<double, Nodes, 1> values;
     Eigen::Matrix<double, Nodes, 3> slopes;
     for (int i = 0; i < Nodes; ++i) {
-      values[i] = OfElement::value(i, q);
-      for (int k = 0; k < 3; ++k) slopes(i, k) = OfElement::slope(i, k, q);
+      values[i] = Element::value(i, q);
+      for (int k = 0; k < 3; ++k) slopes(i, k) = Element::slope(i, k, q);
     }
     const Eigen::Matrix3d jacobian = x * slopes;
     mass += weight * std::abs(jacobian.determinant()) * values * values.transpose();
@@ -168,14 +171,19 @@ Eigen::Matrix<double, Nodes, Nodes> quadratic_mass(Eigen::Matrix<double, 3, Node
   return mass;
 }
 
-/// A mass for each node of an element of which this is the consistent one. Row sums would be negative at the
-/// corners of quadratic elements; so the diagonal is, in proportion (Hinton, Rock, Zienkiewicz 1976).
-template <int Nodes>
-Eigen::Matrix<double, Nodes, 1> lumped_mass(Eigen::Matrix<double, Nodes, Nodes> const& consistent) {
-  if constexpr (Nodes > 8)
-    return consistent.diagonal() * (consistent.sum() / consistent.trace());
-  else
-    return consistent.rowwise().sum();
+}  // namespace sinew::detail
+
+namespace sinew {
+
+SINEW_ONCE Eigen::Matrix<double, 10, 10> quadratic_mass(Eigen::Matrix<double, 3, 10> const& x) {
+  return detail::mass_of<QuadraticTetrahedronShape>(x);
+}
+SINEW_ONCE Eigen::Matrix<double, 20, 20> quadratic_mass(Eigen::Matrix<double, 3, 20> const& x) {
+  return detail::mass_of<QuadraticHexahedronShape>(x);
+}
+SINEW_ONCE Eigen::Matrix<double, 27, 27> quadratic_mass(Eigen::Matrix<double, 3, 27> const& x) {
+  return detail::mass_of<TriquadraticHexahedronShape>(x);
 }
 
 }  // namespace sinew
+#endif
