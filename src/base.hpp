@@ -52,6 +52,7 @@
 #include <sinew/topology/isosurface_stuffing.hpp>
 #include <sinew/topology/mesh_topology.hpp>
 #include <sinew/topology/quality.hpp>
+#include <sinew/topology/quadratic_shapes.hpp>
 #include <sinew/topology/refinement.hpp>
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>

@@ -31,6 +31,9 @@ void take_elements(sinew::TopologyView const& topology, sinew::Mesh& mesh) {
   mesh.hexahedra = copy(topology.hexahedra);
   mesh.pyramids = copy(topology.pyramids);
   mesh.prisms = copy(topology.prisms);
+  mesh.quadraticTetrahedra = copy(topology.quadraticTetrahedra);
+  mesh.quadraticHexahedra = copy(topology.quadraticHexahedra);
+  mesh.triquadraticHexahedra = copy(topology.triquadraticHexahedra);
   if (sinew::dimension_of(mesh) == 3) return;
   mesh.triangles = copy(topology.triangles);
   mesh.quads = copy(topology.quads);

@@ -481,6 +481,54 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <HERE/>
 </Node>)",
      "HERE"},
+    {"QuadraticTetrahedronFEMForceField",
+     R"(<QuadraticTetrahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="wedge" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology quadraticTetrahedra="0 1 2 3 4 5 6 7 8 9"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0 0.1 0  0 0 0.1  0.05 0 0
+                              0.05 0.05 0  0 0.05 0  0 0 0.05  0.05 0 0.05  0 0.05 0.05"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="0 1 2 4 5 6"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"QuadraticHexahedronFEMForceField",
+     R"(<QuadraticHexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="cube" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology quadraticHexahedra="0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0.1 0.1 0  0 0.1 0  0 0 0.1
+                              0.1 0 0.1  0.1 0.1 0.1  0 0.1 0.1  0.05 0 0  0.1 0.05 0
+                              0.05 0.1 0  0 0.05 0  0.05 0 0.1  0.1 0.05 0.1  0.05 0.1 0.1
+                              0 0.05 0.1  0 0 0.05  0.1 0 0.05  0.1 0.1 0.05  0 0.1 0.05"/>
+  <DiagonalMass massDensity="1000"/>
+  <FixedConstraint indices="0 1 2 3 8 9 10 11"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
+    {"TriquadraticHexahedronFEMForceField",
+     R"(<TriquadraticHexahedronFEMForceField youngModulus="50000" poissonRatio="0.3"/>)",
+     R"(
+<Node name="cube" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver/>
+  <MeshTopology triquadraticHexahedra="0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21 22 23 24 25 26"/>
+  <MechanicalObject position="0 0 0  0.1 0 0  0.1 0.1 0  0 0.1 0  0 0 0.1
+                              0.1 0 0.1  0.1 0.1 0.1  0 0.1 0.1  0.05 0 0  0.1 0.05 0
+                              0.05 0.1 0  0 0.05 0  0.05 0 0.1  0.1 0.05 0.1  0.05 0.1 0.1
+                              0 0.05 0.1  0 0 0.05  0.1 0 0.05  0.1 0.1 0.05  0 0.1 0.05
+                              0 0.05 0.05  0.1 0.05 0.05  0.05 0 0.05  0.05 0.1 0.05  0.05 0.05 0
+                              0.05 0.05 0.1  0.05 0.05 0.05"/>
+  <MeshMatrixMass massDensity="1000"/>
+  <FixedConstraint indices="0 1 2 3 8 9 10 11 24"/>
+  <HERE/>
+</Node>)",
+     "HERE"},
     {"JointSpringForceField", R"(
 <Node name="links" gravity="0 -9.81 0">
   <EulerImplicitSolver rayleighStiffness="0.01"/>

@@ -55,6 +55,8 @@
 #include <sinew/force/prism_fem.hpp>
 #include <sinew/force/pyramid_fem.hpp>
 #include <sinew/force/quad_bending_fem.hpp>
+#include <sinew/force/quadratic_hexahedron_fem.hpp>
+#include <sinew/force/quadratic_tetrahedron_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
 #include <sinew/force/solid_element_fem.hpp>
@@ -73,6 +75,7 @@
 #include <sinew/force/triangular_quadratic_springs.hpp>
 #include <sinew/force/triangular_shell.hpp>
 #include <sinew/force/triangular_tensor_mass.hpp>
+#include <sinew/force/triquadratic_hexahedron_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/area_mapping.hpp>

@@ -44,9 +44,10 @@ using Fluids = Registry<SPHFluidForceField<D>, FluidBoundary<D>, ImmersedSolid<D
 template <class D>
 using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
-             PyramidFEMForceField<D>, PrismFEMForceField<D>, TriangleFEMForceField<D>,
-             SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
-             EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+             PyramidFEMForceField<D>, PrismFEMForceField<D>, QuadraticTetrahedronFEMForceField<D>,
+             QuadraticHexahedronFEMForceField<D>, TriquadraticHexahedronFEMForceField<D>,
+             TriangleFEMForceField<D>, SurfacePressureForceField<D>, TrianglePressureForceField<D>,
+             QuadPressureForceField<D>, EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
              QuadBendingFEMForceField<D>>;
 template <class D>
@@ -195,19 +196,20 @@ using MadeMeshes = Registry<CubeTopology, CylinderGridTopology, SphereGridTopolo
                             StringMeshCreator, MeshSubdivision>;
 
 template <class D>
-using PointCollisionModels = Registry<PointCollisionModel<D>, LineCollisionModel<D>,
-                                      TriangleCollisionModel<D>, SphereCollisionModel<D>,
-                                      CapsuleCollisionModel<D>, TetrahedronCollisionModel<D>>;
+using PointCollisionModels =
+    Registry<PointCollisionModel<D>, LineCollisionModel<D>, TriangleCollisionModel<D>,
+             SphereCollisionModel<D>, CapsuleCollisionModel<D>, TetrahedronCollisionModel<D>>;
 #ifdef SINEW_CCD
-using ConvexCollisionModels = Registry<ConvexCollisionModel<Rigid3d>, OBBCollisionModel<Rigid3d>,
-                                       CapsuleCollisionModel<Rigid3d>>;
+using ConvexCollisionModels =
+    Registry<ConvexCollisionModel<Rigid3d>, OBBCollisionModel<Rigid3d>, CapsuleCollisionModel<Rigid3d>>;
 #else
 using ConvexCollisionModels = Registry<>;
 #endif
 using StandardCollision =
     Registry<DefaultPipeline, SubCollisionPipeline, BruteForceBroadPhase, TreeBroadPhase, BVHNarrowPhase,
-             RayTraceNarrowPhase, LocalMinDistance, MinProximityIntersection, DiscreteIntersection, ContinuousIntersection, DefaultContactManager,
-             CarvingManager, CuttingManager, PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
+             RayTraceNarrowPhase, LocalMinDistance, MinProximityIntersection, DiscreteIntersection,
+             ContinuousIntersection, DefaultContactManager, CarvingManager, CuttingManager,
+             PointCollisionModels<Vec3d>, SphereCollisionModel<Rigid3d>,
              RigidDistanceGridCollisionModel<Rigid3d>, ConvexCollisionModels>;
 
 template <class D>

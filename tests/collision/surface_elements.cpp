@@ -3,6 +3,7 @@
 #include <sinew/topology/regular_grid.hpp>
 
 #include "catch.hpp"
+#include "quadratic_mesh.hpp"
 
 #include <Eigen/Geometry>
 
@@ -64,6 +65,30 @@ TEST_CASE("a quad whose halves are triangles of the topology, as those of grids 
   const std::vector<Quad> quads{{0, 1, 4, 3}, {1, 2, 5, 4}};
   CHECK(triangles_of({.triangles = halves, .quads = quads}).size() == 4);
   CHECK(lines_of({.triangles = halves, .quads = quads}).size() == 9);
+}
+
+TEST_CASE("the surface of elements of second order has all nodes of their faces") {
+  auto check = [](auto element, std::size_t triangles) {
+    using Element = decltype(element);
+    Mesh mesh = one::quadratic_box<Element>(2, 1, 1, {0, 0, 0}, {2, 1, 1});
+    for (const bool turned : {false, true}) {
+      if (turned) {
+        for (auto& e : mesh.quadraticTetrahedra) turn_inside_out(e);
+        for (auto& e : mesh.quadraticHexahedra) turn_inside_out(e);
+        for (auto& e : mesh.triquadraticHexahedra) turn_inside_out(e);
+      }
+      const auto surface = triangles_of({.quadraticTetrahedra = mesh.quadraticTetrahedra,
+                                         .quadraticHexahedra = mesh.quadraticHexahedra,
+                                         .triquadraticHexahedra = mesh.triquadraticHexahedra},
+                                        mesh.positions);
+      CHECK(surface.size() == triangles);
+      CHECK(volume_in(surface, mesh.positions) == Approx(2).epsilon(1e-14));
+    }
+  };
+  // ten sides of cells: of two faces of tetrahedra each, of four triangles and a quad, of four quads
+  check(QuadraticTetrahedron{}, 10 * 2 * 4);
+  check(QuadraticHexahedron{}, 10 * 6);
+  check(TriquadraticHexahedron{}, 10 * 8);
 }
 
 }  // namespace test_surface_elements

@@ -164,6 +164,24 @@ TEST_CASE("prisms and pyramids are loaded, turned where they are mirrored, and h
   CHECK(mesh.edges.size() == 9 + 4);
 }
 
+TEST_CASE("tetrahedra of second order are loaded, turned where they are mirrored, and have parts of sides") {
+  const files::TempFolder folder;
+  const std::string path = folder.write(
+      "a.msh",
+      "$NOD\n10\n1 0 0 0\n2 2 0 0\n3 0 2 0\n4 0 0 2\n5 1 0 0\n6 1 1 0\n7 0 1 0\n8 0 0 1\n9 0 1 1\n10 1 0 1\n"
+      "$ENDNOD\n$ELM\n1\n1 11 1 1 10 1 2 3 4 5 6 7 8 9 10\n$ENDELM");
+  const auto mesh = loaded(MeshGmshLoader{.filename = {path}, .createSubelements = true});
+  CHECK(mesh.quadraticTetrahedra == std::vector<QuadraticTetrahedron>{{0, 1, 2, 3, 4, 5, 6, 7, 9, 8}});
+  CHECK(mesh.triangles.size() == 16);
+  CHECK(mesh.edges.size() == 24);
+  const auto mirrored = loaded(MeshGmshLoader{.filename = {path}, .scale3d = {1, 1, -1}});
+  CHECK(mirrored.quadraticTetrahedra == std::vector<QuadraticTetrahedron>{{0, 1, 3, 2, 4, 9, 7, 6, 5, 8}});
+  auto const& e = mirrored.quadraticTetrahedra[0];
+  for (auto const& [i, j, middle] : sinew::detail::quadraticTetrahedronEdges)
+    CHECK(mirrored.position[std::size_t(e[middle])] ==
+          (mirrored.position[std::size_t(e[i])] + mirrored.position[std::size_t(e[j])]) / 2);
+}
+
 TEST_CASE("loaders say what is wrong, and keep what they had") {
   const files::TempFolder folder;
   auto mesh = loaded(MeshOBJLoader{.filename = {folder.write("cube.obj", cube)}});

@@ -157,6 +157,13 @@ TEST_CASE("springs of meshes refuse what they cannot stand on") {
   one::refuses(Mesh3{.cubesDamping = one::notANumber}, corners, {.edges = edges}, {"cubesDamping is nan"});
   const std::vector<Edge> far{{0, 4}};
   one::refuses(Mesh3{.stiffness = 1}, corners, {.edges = far}, {"edge 0 refers to point 4", "4 points"});
+  const std::vector<QuadraticTetrahedron> ten{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}};
+  Vec3d::VecCoord nodes(corners);
+  nodes.resize(10, Eigen::Vector3d::Zero());
+  one::refuses(Mesh3{.stiffness = 1},
+               nodes,
+               {.quadraticTetrahedra = ten},
+               {"the topology has a quadratic tetrahedron, and this takes no elements of second order"});
   one::refuses(Grid3{}, corners, {.grid = {2, 2, 2}}, {"grid has 2 x 2 x 2 points", "state has 4"});
   one::refuses(Grid3{}, corners, {.hexahedra = cube}, {"hexahedron 0 refers to point 4"});
   one::refuses(Grid3{.quadsStiffness = -2}, corners, {.grid = {2, 2, 1}}, {"quadsStiffness is -2"});

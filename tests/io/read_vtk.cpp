@@ -78,7 +78,21 @@ TEST_CASE("read_vtk brings VTK's cells into the node order of the mesh") {
   CHECK(one_cell(6, "0 1 2 3").triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
   CHECK(one_cell(7, "0 1 3 2").quads == std::vector<Quad>{{0, 1, 3, 2}});
   CHECK(one_cell(2, "0 1 2").triangles.empty());
-  check_says(error_of([] { one_cell(24, "0 1 2 3"); }), "f:9", "cell 0 is of VTK's cell type 24");
+  check_says(error_of([] { one_cell(26, "0 1 2 3"); }), "f:9", "cell 0 is of VTK's cell type 26");
+  check_says(error_of([] { one_cell(15, "0 1 2 3"); }), "f:9", "cell type 15");
+  check_says(error_of([] { one_cell(30, "0 1 2 3"); }), "f:9", "cell type 30");
+  // faces and edges of second order are cut between their nodes
+  CHECK(one_cell(21, "0 1 2").edges == std::vector<Edge>{{0, 2}, {2, 1}});
+  CHECK(one_cell(22, "0 1 2 3 4 5").triangles ==
+        std::vector<Triangle>{{0, 3, 5}, {1, 4, 3}, {2, 5, 4}, {3, 4, 5}});
+  CHECK(one_cell(23, "0 1 2 3 4 5 6 7").quads == std::vector<Quad>{{4, 5, 6, 7}});
+  CHECK(one_cell(28, "0 1 2 3 4 5 6 7 8").quads ==
+        std::vector<Quad>{{0, 4, 8, 7}, {4, 1, 5, 8}, {8, 5, 2, 6}, {7, 8, 6, 3}});
+  check_says(error_of([] { one_cell(24, "0 1 2 3 4 5 6 7 8"); }),
+             "f:9",
+             "has 9 points, but VTK's cell type 24 has 10");
+  check_says(error_of([] { one_cell(25, "0 1 2 3 4 5 6 7"); }), "f:9", "cell type 25 has 20");
+  check_says(error_of([] { one_cell(29, "0 1 2 3 4 5 6 7"); }), "f:9", "cell type 29 has 27");
   check_says(error_of([] { one_cell(-1, "0 1 2 3"); }), "f:9", "cell type -1");
   check_says(
       error_of([] { one_cell(13, "0 1 2 3 4"); }), "f:9", "has 5 points, but VTK's cell type 13 has 6");

@@ -52,6 +52,20 @@ TEST_CASE("write_vtu writes prisms as VTK has them, and read_vtu turns them back
   CHECK(io::read_vtu(folder / "a.vtu") == mesh);
 }
 
+TEST_CASE("write_vtu writes elements of second order as read_vtu and read_vtk read them") {
+  const files::TempFolder folder;
+  Mesh mesh;
+  for (int i = 0; i < 27; ++i) mesh.positions.emplace_back(i, i * i, -i);
+  auto number = [](auto& e) {
+    for (std::size_t k = 0; k < e.size(); ++k) e[k] = Index(k);
+  };
+  number(mesh.quadraticTetrahedra.emplace_back());
+  number(mesh.quadraticHexahedra.emplace_back());
+  number(mesh.triquadraticHexahedra.emplace_back());
+  io::write_vtu(folder / "a.vtu", mesh);
+  CHECK(io::read_vtu(folder / "a.vtu") == mesh);
+}
+
 TEST_CASE("write_vtu writes data at points, bit by bit") {
   const files::TempFolder folder;
   const Mesh mesh = samples::mesh();

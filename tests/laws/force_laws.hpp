@@ -164,11 +164,19 @@ struct ForceSuite {
     else
       return {};
   }
+  // elements of second order where it is over these
+  template <class C>
+  TopologyView elementsOf() const {
+    if constexpr (requires { requires(C::Driver::arity > 8); })
+      return body.whole();
+    else
+      return body.topology();
+  }
   template <class C>
   void run() {
     sample::for_each_variant<C>(random, [&](C const& sampled) {
       INFO(component_name<C>());
-      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, body.topology(), {}, bodyOf<C>()});
+      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, elementsOf<C>(), {}, bodyOf<C>()});
       check(subject);
     });
   }

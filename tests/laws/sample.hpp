@@ -6,6 +6,7 @@
 
 #include <sinew/registry.hpp>
 #include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/quadratic_shapes.hpp>
 
 #include <random>
 
@@ -23,7 +24,7 @@ struct Random {
 };
 
 /// Points of a 3x3x3 grid, shaken, with its lines, a hexahedron, five tetrahedra, three pyramids and two
-/// prisms a cell, and the surface of the first two.
+/// prisms a cell, the surface of the first two, and elements of second order over all cells.
 struct Body {
   static constexpr int n = 27;
   std::vector<Edge> edges;
@@ -33,6 +34,10 @@ struct Body {
   std::vector<Hexahedron> hexahedra;
   std::vector<Pyramid> pyramids;
   std::vector<Prism> prisms;
+  // over all cells; of the nodes of the last, the others have their own
+  std::vector<QuadraticTetrahedron> quadraticTetrahedra;
+  std::vector<QuadraticHexahedron> quadraticHexahedra;
+  std::vector<TriquadraticHexahedron> triquadraticHexahedra;
   std::vector<Eigen::Vector3d> points;
 
   explicit Body(Random& random) {
@@ -74,6 +79,27 @@ struct Body {
         }
     }
     triangles = boundary_triangles(tetrahedra);
+    TriquadraticHexahedron whole{};
+    for (std::size_t k = 0; k < 27; ++k) {
+      auto const& at = sinew::detail::triquadraticPlaces.at[k];
+      whole[k] = int(at[0] + 3 * at[1] + 9 * at[2]) + 13;
+    }
+    triquadraticHexahedra = {whole};
+    std::copy(whole.begin(), whole.begin() + 20, quadraticHexahedra.emplace_back().begin());
+    for (auto const& t : even) {
+      auto& e = quadraticTetrahedra.emplace_back();
+      for (std::size_t k = 0; k < 4; ++k) e[k] = 2 * (t[k] % 2 + 3 * (t[k] / 2 % 2) + 9 * (t[k] / 4));
+      for (auto const& [i, j, middle] : sinew::detail::quadraticTetrahedronEdges)
+        e[middle] = (e[i] + e[j]) / 2;
+    }
+  }
+  /// Also with elements of second order.
+  TopologyView whole() const {
+    TopologyView all = topology();
+    all.quadraticTetrahedra = quadraticTetrahedra;
+    all.quadraticHexahedra = quadraticHexahedra;
+    all.triquadraticHexahedra = triquadraticHexahedra;
+    return all;
   }
   TopologyView topology() const {
     return {.edges = edges,

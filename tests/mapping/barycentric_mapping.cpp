@@ -7,6 +7,7 @@
 
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "quadratic_mesh.hpp"
 
 namespace test_barycentric_mapping {
 
@@ -355,6 +356,40 @@ TEST_CASE("prisms and pyramids carry points inside and outside, and move them af
   const Barycentric pyramid = mapped(tent, {.pyramids = two}, above);
   for (const double w : pyramid.carriers[0].weights) CHECK(w == Approx(0.1));
   CHECK(pyramid.others[0].weights[0] == Approx(0.6));
+}
+
+TEST_CASE("tetrahedra of ten points and hexahedra of 27 carry points by their parts") {
+  auto check = [](auto element) {
+    Mesh mesh = one::quadratic_box<decltype(element)>(2, 2, 2, {0, 0, 0}, {2, 2, 2});
+    const Points parent = shaken(mesh.positions, 0.05);
+    const TopologyView view{.quadraticTetrahedra = mesh.quadraticTetrahedra,
+                            .triquadraticHexahedra = mesh.triquadraticHexahedra};
+    Random random;
+    Points child = parent;
+    for (int i = 0; i < 200; ++i) child.push_back(random.point(-1, 3));
+    const Points given = child;
+    const Barycentric mapping = mapped(parent, view, child);
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      CHECK((child[i] - given[i]).norm() < 1e-10);
+      if ((given[i].array() > 0.15).all() && (given[i].array() < 1.85).all())
+        for (const double w : mapping.carriers[i].weights) CHECK(w > -1e-6);  // inside an element
+      if (i >= parent.size()) continue;
+      double most = 0;  // a node is carried by itself
+      for (auto const* list : {&mapping.carriers, &mapping.others})
+        if (!list->empty())
+          for (std::size_t k = 0; k < 4; ++k)
+            if ((*list)[i].points[k] == Index(i)) most += (*list)[i].weights[k];
+      CHECK(most == Approx(1).epsilon(1e-6));
+    }
+    check_affine(mapping, parent, child);
+    check_virtual_work(mapping, parent.size(), child.size());
+  };
+  check(QuadraticTetrahedron{}), check(TriquadraticHexahedron{});
+  const Mesh twenty = one::quadratic_box<QuadraticHexahedron>(1, 1, 1, {0, 0, 0}, {1, 1, 1});
+  Points at{{0.5, 0.5, 0.5}};
+  const std::string said =
+      error_of([&] { mapped(twenty.positions, {.quadraticHexahedra = twenty.quadraticHexahedra}, at); });
+  CHECK(said.find("take hexahedra of 27 points") != said.npos);
 }
 
 TEST_CASE("a child that starts elsewhere is carried by where it rests, if it says so") {

@@ -4,6 +4,7 @@
 
 #include "catch.hpp"
 #include "error_of.hpp"
+#include "quadratic_mesh.hpp"
 
 namespace test_diagonal_mass {
 
@@ -70,6 +71,29 @@ TEST_CASE("DiagonalMass of prisms and pyramids: a sixth to each corner; a quarte
   const auto m = masses({.massDensity = 8}, tent, {.pyramids = pyramids});
   for (std::size_t i = 0; i < 4; ++i) CHECK(m[i] == Approx(16 * 3 / 16.).epsilon(1e-13));
   CHECK(m[4] == Approx(16 / 4.).epsilon(1e-13));
+}
+
+// The diagonal of the consistent mass, in proportion: of a straight tetrahedron it is 6 at corners and 32
+// between them, in rho V/420, which are 216 in all; of a box of 27 nodes the products of 1, 4 and 1 each way.
+TEST_CASE("DiagonalMass of elements of second order is positive, and all of their mass") {
+  const Mesh tetrahedra = one::quadratic<QuadraticTetrahedron>(
+      {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, .tetrahedra = {{0, 1, 2, 3}}});
+  const auto t = masses(
+      {.massDensity = 216}, tetrahedra.positions, {.quadraticTetrahedra = tetrahedra.quadraticTetrahedra});
+  for (std::size_t i = 0; i < 10; ++i) CHECK(t[i] == Approx(i < 4 ? 6 : 32).epsilon(1e-13));
+  const Mesh box27 = one::quadratic_box<TriquadraticHexahedron>(1, 1, 1, {0, 0, 0}, {1, 2, 3});
+  const auto h =
+      masses({.massDensity = 36}, box27.positions, {.triquadraticHexahedra = box27.triquadraticHexahedra});
+  auto const& e = box27.triquadraticHexahedra[0];
+  for (std::size_t k = 0; k < 27; ++k) {
+    const int middles = k < 8 ? 0 : k < 20 ? 1 : k < 26 ? 2 : 3;
+    CHECK(h[std::size_t(e[k])] == Approx(std::pow(4, middles)).epsilon(1e-13));
+  }
+  const Mesh box20 = one::quadratic_box<QuadraticHexahedron>(2, 1, 1, {0, 0, 0}, {1, 2, 3});
+  const auto s =
+      masses({.massDensity = 5}, box20.positions, {.quadraticHexahedra = box20.quadraticHexahedra});
+  CHECK(sum(s) == Approx(30).epsilon(1e-13));
+  for (const double m : s) CHECK(m > 0);
 }
 
 TEST_CASE("DiagonalMass of sheets and strings") {

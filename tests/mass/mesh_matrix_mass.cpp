@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "quadratic_mesh.hpp"
 
 #include <sinew/mass/mesh_matrix_mass.hpp>
 #include <sinew/sinew.hpp>
@@ -190,6 +191,81 @@ TEST_CASE("prisms and pyramids have the masses of their shape functions") {
   }
   CHECK_THROWS_WITH(matrix(prism, {.prisms = prisms}, MassElements::pyramids),
                     Catch::Contains("the mass is that of pyramids"));
+}
+
+// A straight tetrahedron of ten nodes (Zienkiewicz & Taylor): in rho V/420, 6 at a corner, 1 between two, -4
+// and -6 between a corner and an edge with it or without, 32 at an edge, 16 and 8 between edges with a common
+// corner or without.
+TEST_CASE("elements of second order have the masses of their shape functions") {
+  const Mesh t = one::quadratic<QuadraticTetrahedron>(
+      {.positions = {{0, 0, 0}, {1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, .tetrahedra = {{0, 1, 2, 3}}});
+  MeshMatrixMass<Vec3d> mass{.massDensity = {420}};
+  mass.init(InitContext<Vec3d>{"element", t.positions, {.quadraticTetrahedra = t.quadraticTetrahedra}});
+  auto cornersOf = [](int i) {
+    if (i < 4) return std::vector<std::size_t>{std::size_t(i)};
+    auto const& edge = sinew::detail::quadraticTetrahedronEdges[std::size_t(i) - 4];
+    return std::vector{edge[0], edge[1]};
+  };
+  for (int j = 0; j < 10; ++j) {
+    Points unit(10, Eigen::Vector3d::Zero()), product = unit;
+    unit[std::size_t(j)][0] = 1;
+    mass.addMDx(product, unit, unit, 1);
+    for (int i = 0; i < 10; ++i) {
+      int common = 0;
+      for (const std::size_t a : cornersOf(i))
+        for (const std::size_t b : cornersOf(j)) common += a == b;
+      const double expected = i < 4 && j < 4   ? (i == j ? 6 : 1)
+                              : i < 4 || j < 4 ? (common ? -4 : -6)
+                                               : (common == 2   ? 32
+                                                  : common == 1 ? 16
+                                                                : 8);
+      CHECK(product[std::size_t(i)][0] == Approx(expected).epsilon(1e-12));
+    }
+  }
+  // the weight is the row sum, -V/20 at corners and V/5 between them, and lumped the whole mass is positive
+  Points weight(10, Eigen::Vector3d::Zero());
+  MechanicalParams gravity;
+  gravity.gravity = {0, 0, 1};
+  mass.addForce(gravity, weight, t.positions, weight);
+  for (std::size_t i = 0; i < 10; ++i) CHECK(weight[i][2] == Approx(i < 4 ? -21 : 84).epsilon(1e-12));
+  Points a = weight;
+  CHECK_THROWS_WITH(mass.accFromF(a, t.positions, weight), Catch::Contains("set lumping"));
+  mass.lumping = true;
+  mass.init(InitContext<Vec3d>{"element", t.positions, {.quadraticTetrahedra = t.quadraticTetrahedra}});
+  for (std::size_t i = 0; i < 10; ++i)
+    CHECK(mass.lumped.at(i) == Approx(i < 4 ? 6 * 420 / 216. : 32 * 420 / 216.).epsilon(1e-12));
+  mass.accFromF(a, t.positions, weight);
+  CHECK(a[0][2] == Approx(-21 / (6 * 420 / 216.)));
+}
+
+// integral of rho x^2 over a box, which fields of degree two have exactly; also where its edges are curved
+// inside
+TEST_CASE("products of quadratic elements are integrated exactly, and what they are lumped to is the mass") {
+  auto check = [](auto element) {
+    using Element = decltype(element);
+    Mesh mesh = one::quadratic_box<Element>(2, 2, 1, {0, 0, 0}, {2, 1, 1});
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+      if (auto& p = mesh.positions[i]; p[0] > 0.1 && p[0] < 1.9)
+        p[0] += 0.1 * std::sin(3.0 * double(i));  // along the box: it stays one
+    for (const MassElements kind : {MassElements::highest,
+                                    std::tuple_size_v<Element> == 10   ? MassElements::quadraticTetrahedra
+                                    : std::tuple_size_v<Element> == 20 ? MassElements::quadraticHexahedra
+                                                                       : MassElements::triquadraticHexahedra})
+      for (const bool lumping : {false, true}) {
+        MeshMatrixMass<Vec3d> mass{.massDensity = {3}, .lumping = lumping, .elements = kind};
+        mass.init(InitContext<Vec3d>{"body",
+                                     mesh.positions,
+                                     {.quadraticTetrahedra = mesh.quadraticTetrahedra,
+                                      .quadraticHexahedra = mesh.quadraticHexahedra,
+                                      .triquadraticHexahedra = mesh.triquadraticHexahedra}});
+        Points x, one(mesh.positions.size(), Eigen::Vector3d(1, 0, 0));
+        for (auto const& p : mesh.positions) x.emplace_back(p[0], 0, 0);
+        CHECK(mass.kineticEnergy(x, one) == Approx(3 * 2 / 2.).epsilon(1e-12));
+        if (!lumping) CHECK(mass.kineticEnergy(x, x) == Approx(3 * 8. / 3 / 2).epsilon(1e-12));
+        for (std::size_t i = 0; i < x.size(); ++i) CHECK(mass.lumped.at(i) > 0);
+      }
+  };
+  check(QuadraticTetrahedron{}), check(QuadraticHexahedron{}), check(TriquadraticHexahedron{});
 }
 
 TEST_CASE("products of linear fields are integrated exactly") {

@@ -427,6 +427,38 @@ TEST_CASE("a grid becomes prisms, and pyramids are listed, with forces and masse
   CHECK(in<MeshTopology>(container, "n").prisms.empty());
 }
 
+TEST_CASE("elements of second order have forces and masses, and are refused by what would leave them out") {
+  const std::string points =
+                        "<MechanicalObject position='0 0 0  2 0 0  0 2 0  0 0 2  1 0 0  1 1 0  0 1 0  0 0 1  "
+                        "1 0 1  0 1 1'/>",
+                    ten = "<MeshTopology name='all' quadraticTetrahedra='0 1 2 3 4 5 6 7 8 9'/>";
+  auto scene = node("<EulerImplicitSolver/><SparseLDLSolver/>" + ten + points +
+                    "<NodalMassDensity property='3'/><FEMMass template='Vec3,QuadraticTetrahedron'/>"
+                    "<FixedConstraint indices='0 1 2 4 5 6'/><CorotationalFEMForceField "
+                    "template='Vec3,QuadraticTetrahedron' rotationMethod='polar'/>");
+  CHECK(scene.warnings.empty());
+  CHECK(in<QuadraticTetrahedronFEMForceField<Vec3d>>(scene).method == ElementRotation::polar);
+  CHECK(in<MeshMatrixMass<Vec3d>>(scene).elements == MassElements::quadraticTetrahedra);
+  Simulation sim{std::move(scene.root)};
+  sim.init();
+  sim.animate(0.01);
+  CHECK(sim.root().get<MechanicalObject<Vec3d>>()->position[3][1] < 0);
+
+  auto container = node(ten + points + "<Node name='n'><TetrahedronSetTopologyContainer src='@../all'/>" +
+                        points + "</Node>");
+  CHECK(in<MeshTopology>(container, "n").quadraticTetrahedra.size() == 1);
+  using Catch::Contains;
+  CHECK_THAT(
+      wrong((ten + points + "<SubsetTopology template='Vec3d' src='@all'/>")),
+      Contains("has quadraticTetrahedra, elements of second order, and this takes those of first order"));
+  CHECK_THAT(wrong((ten + points +
+                    "<Node name='n'><MeshTopology name='out'/><Tetra2TriangleTopologicalMapping "
+                    "input='@../all' output='@out'/></Node>")),
+             Contains("has quadraticTetrahedra"));
+  CHECK_THAT(wrong(("<MeshTopology quadraticTetrahedra='0 1 2 3 4 5 6 7 8'/>" + points)),
+             Contains("quadraticTetrahedra"));
+}
+
 TEST_CASE("FEM of tetrahedra has more names, with words and defaults of their own") {
   auto body = [](std::string const& force) {
     return node(

@@ -64,6 +64,13 @@ TEST_CASE("MeshTopology refuses indices that the state has no point for") {
   refused({.hexahedra = {{0, 1, 2, 3, 4, 5, 6, 7}}}, "hexahedron 0 refers to point 4");
   refused({.pyramids = {{0, 1, 2, 3, 4}}}, "pyramid 0 refers to point 4");
   refused({.prisms = {{0, 1, 2, 3, 0, 9}}}, "prism 0 refers to point 9");
+  refused({.quadraticTetrahedra = {{0, 1, 2, 3, 4, 5, 6, 7, 8, 9}}},
+          "quadratic tetrahedron 0 refers to point 4");
+  refused({.quadraticTetrahedra = {{0, 1, 2, 3, 0, 1, 2, 3, 0, 1}}},
+          "quadratic tetrahedron 0 has point 0 twice; give it 10 different points");
+  refused({.quadraticHexahedra = {QuadraticHexahedron{}}}, "quadratic hexahedron 0 has point 0 twice");
+  refused({.triquadraticHexahedra = {TriquadraticHexahedron{}}},
+          "triquadratic hexahedron 0 has point 0 twice");
   // more positions of its own do not help
   refused({.position = std::vector<Eigen::Vector3d>(5), .edges = {{0, 4}}}, "edge 0 refers to point 4");
 

@@ -90,6 +90,21 @@ TEST_CASE("what lies in prisms and pyramids goes with them, and these with a hex
         std::vector<bool>{false});
 }
 
+TEST_CASE("nodes and parts of faces go with an element of second order") {
+  // two over a common face of the corners 1, 2 and 3
+  const std::vector<QuadraticTetrahedron> tetrahedra{{0, 1, 2, 3, 4, 5, 6, 7, 8, 9},
+                                                     {10, 1, 3, 2, 11, 8, 12, 13, 5, 9}};
+  const std::vector<Triangle> triangles{{0, 4, 6}, {1, 5, 8}, {1, 11, 8}};
+  const std::vector<Tetrahedron> corner{{0, 4, 6, 7}};
+  const TopologyView view{.triangles = triangles, .quadraticTetrahedra = tetrahedra};
+  const auto plan =
+      plan_element_removal(14, {view, TopologyView{.tetrahedra = corner}}, 0, {.quadraticTetrahedra = {0}});
+  CHECK(plan.elements[0][7] == std::vector<bool>{false, true});
+  CHECK(plan.elements[0][1] == std::vector<bool>{false, true, true});
+  CHECK(plan.elements[1][3] == std::vector<bool>{false});
+  CHECK(plan.change(0).points.kept == std::vector<Index>{1, 2, 3, 5, 8, 9, 10, 11, 12, 13});
+}
+
 TEST_CASE("values of elements in space are one kind after the other") {
   TopologyChange change;
   change.elements[std::size_t(ElementKind::tetrahedron)] = Renumbering::of({true, false});

@@ -16,8 +16,9 @@ std::vector<PrimitiveCorners> points_of(TopologyView const&, std::size_t points)
 
 /// The surface of the volume elements of a topology, oriented outwards, whatever of it is listed, so that it
 /// is that of what is left when some are removed; then the triangles and quads that are no part of it. Quads
-/// are cut in two, of which those that are triangles of the topology already are left out. Where positions
-/// are given, elements of negative volume have their outside outside, too.
+/// are cut in two, of which those that are triangles of the topology already are left out, and faces of
+/// elements of second order between their nodes. Where positions are given, elements of negative volume have
+/// their outside outside, too.
 std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
                                            std::span<Eigen::Vector3d const> positions = {});
 
@@ -42,6 +43,8 @@ bool is_inside_out(std::array<Index, N> const& element, std::span<Eigen::Vector3
   const auto e = [&] {
     if constexpr (N == 4)
       return element;
+    else if constexpr (N > 8)
+      return corners_of(element);
     else
       return as_hexahedron(element);
   }();
@@ -49,7 +52,7 @@ bool is_inside_out(std::array<Index, N> const& element, std::span<Eigen::Vector3
   for (std::size_t k = 0; k < e.size(); ++k) {
     if (e[k] < 0 || std::size_t(e[k]) >= positions.size()) return false;
     const Eigen::Vector3d x = positions[std::size_t(e[k])] - positions[std::size_t(e[0])];
-    if constexpr (N == 4) {
+    if constexpr (N == 4 || N == 10) {
       if (k > 0) sides.col(Eigen::Index(k) - 1) = x;
     } else {
       for (int c = 0; c < 3; ++c) sides.col(c) += hexahedronCorners[k][c] == 1 ? x : Eigen::Vector3d(-x);
@@ -67,6 +70,8 @@ std::vector<std::array<Index, N>> oriented_outwards(std::span<std::array<Index, 
         std::swap(e[2], e[3]);
       else if constexpr (N == 5)
         std::swap(e[1], e[3]);
+      else if constexpr (N > 8)
+        turn_inside_out(e);
       else
         std::rotate(e.begin(), e.begin() + N / 2, e.end());
     }
@@ -93,7 +98,10 @@ SINEW_ONCE std::vector<PrimitiveCorners> triangles_of(TopologyView const& t,
   const Border border = border_of(tetrahedra,
                                   detail::oriented_outwards<8>(t.hexahedra, positions),
                                   detail::oriented_outwards<5>(t.pyramids, positions),
-                                  detail::oriented_outwards<6>(t.prisms, positions));
+                                  detail::oriented_outwards<6>(t.prisms, positions),
+                                  detail::oriented_outwards<10>(t.quadraticTetrahedra, positions),
+                                  detail::oriented_outwards<20>(t.quadraticHexahedra, positions),
+                                  detail::oriented_outwards<27>(t.triquadraticHexahedra, positions));
   all.assign(border.triangles.begin(), border.triangles.end());
   for (PrimitiveCorners const& c : all) known.push_back(sorted_corners(c));
   for (Quad const& q : border.quads) {

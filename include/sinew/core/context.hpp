@@ -41,6 +41,9 @@ struct TopologyView {
   std::span<Hexahedron const> hexahedra{};
   std::span<Pyramid const> pyramids{};
   std::span<Prism const> prisms{};
+  std::span<QuadraticTetrahedron const> quadraticTetrahedra{};
+  std::span<QuadraticHexahedron const> quadraticHexahedra{};
+  std::span<TriquadraticHexahedron const> triquadraticHexahedra{};
   std::array<int, 3> grid{0, 0, 0};  // points of a regular grid along x, y, z; zeros where there is none
   // of a grid of cells whose points are those of the state: where they lie before the state is moved
   std::span<Eigen::Vector3d const> places{};

@@ -350,12 +350,12 @@ struct ElementDriver {
     for (std::size_t p = share.begin(packs.size()); p < end; ++p) {
       Pack const& pack = packs[p];
       int const* const entries = share.count > 1 ? keptBlocks.entriesOf(p) : nullptr;
-      detail::for_each_pair<arity>([&]<int I, int J>() {
-        constexpr int pair = detail::pair_number<arity>(I, J);
-        const Mat<L, n> block = law.block(pack.rest, pack.tangent, I, J, L(k), L(b));
+      detail::for_each_pair<arity>([&]<class I, class J>(I i, J j) {
+        const int pair = detail::pair_number<arity>(i, j);
+        const Mat<L, n> block = law.block(pack.rest, pack.tangent, i, j, L(k), L(b));
         auto const& slot = slots[p].slot[pair];
         alignas(64) Real ofLane[std::size_t(W)][std::size_t(n * n + 3) / 4 * 4];
-        detail::separate<I == J, n>(block, slots[p].transposed[pair], ofLane);
+        detail::separate<detail::same_point<I, J>, n>(block, slots[p].transposed[pair], ofLane);
         auto add = [&](int l) __attribute__((always_inline)) {
           detail::add_to<n * n>(values + std::ptrdiff_t(slot[l]) * (n * n), ofLane[l]);
         };

@@ -231,6 +231,12 @@ SINEW_ONCE Renumbering ListsThatFollow::ofValues(Of what, std::size_t size) cons
       return change.topology.of(ElementKind::pyramid);
     case Of::prisms:
       return change.topology.of(ElementKind::prism);
+    case Of::quadraticTetrahedra:
+      return change.topology.of(ElementKind::quadraticTetrahedron);
+    case Of::quadraticHexahedra:
+      return change.topology.of(ElementKind::quadraticHexahedron);
+    case Of::triquadraticHexahedra:
+      return change.topology.of(ElementKind::triquadraticHexahedron);
     default:
       return change.topology.ofDimension(change.dimensionOf(what), size);
   }

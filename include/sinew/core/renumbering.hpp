@@ -136,19 +136,37 @@ struct Renumbering {
 
 /// Numbers of elements of a topology, kind by kind, and of its points.
 struct ElementNumbers {
-  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, pyramids{}, prisms{}, points{};
+  std::vector<Index> edges{}, triangles{}, quads{}, tetrahedra{}, hexahedra{}, pyramids{}, prisms{},
+      quadraticTetrahedra{}, quadraticHexahedra{}, triquadraticHexahedra{}, points{};
 
   std::array<std::vector<Index> const*, element_kinds> lists() const {
-    return {&edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms};
+    return {&edges,
+            &triangles,
+            &quads,
+            &tetrahedra,
+            &hexahedra,
+            &pyramids,
+            &prisms,
+            &quadraticTetrahedra,
+            &quadraticHexahedra,
+            &triquadraticHexahedra};
   }
   std::vector<Index>& of(int kind) {
-    return *std::array{
-        &edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms}[std::size_t(kind)];
+    return *std::array{&edges,
+                       &triangles,
+                       &quads,
+                       &tetrahedra,
+                       &hexahedra,
+                       &pyramids,
+                       &prisms,
+                       &quadraticTetrahedra,
+                       &quadraticHexahedra,
+                       &triquadraticHexahedra}[std::size_t(kind)];
   }
 };
 
-/// Elements that come to a topology, in the numbers of its points with those that come behind them; pyramids
-/// and prisms do not.
+/// Elements that come to a topology, in the numbers of its points with those that come behind them; pyramids,
+/// prisms and elements of second order do not.
 struct AddedElements {
   std::vector<Origin> points{};  // where they come, between points that are there
   std::vector<Edge> edges{};
@@ -181,6 +199,9 @@ struct ElementLists {
   std::vector<Hexahedron>* hexahedra = nullptr;
   std::vector<Pyramid>* pyramids = nullptr;
   std::vector<Prism>* prisms = nullptr;
+  std::vector<QuadraticTetrahedron>* quadraticTetrahedra = nullptr;
+  std::vector<QuadraticHexahedron>* quadraticHexahedra = nullptr;
+  std::vector<TriquadraticHexahedron>* triquadraticHexahedra = nullptr;
 
   /// f(kind, list) for each kind there is.
   template <class F>

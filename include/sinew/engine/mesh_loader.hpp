@@ -100,6 +100,9 @@ struct MeshLoader {
   std::vector<Hexahedron> hexahedra{};
   std::vector<Pyramid> pyramids{};
   std::vector<Prism> prisms{};
+  std::vector<QuadraticTetrahedron> quadraticTetrahedra{};
+  std::vector<QuadraticHexahedron> quadraticHexahedra{};
+  std::vector<TriquadraticHexahedron> triquadraticHexahedra{};
   std::vector<Eigen::Vector2d> texcoords{};
   std::vector<Triangle> textureTriangles{};
   std::vector<Quad> textureQuads{};
@@ -120,6 +123,9 @@ struct MeshLoader {
         field("pyramids", &L::pyramids, "", "five points each: those of the base, and the apex"),
         field("prisms", &L::prisms, "", "six points each: those of a triangle, and of the opposite one")
             .also("pentas pentahedra"),
+        field("quadraticTetrahedra", &L::quadraticTetrahedra, "", "ten points each, in VTK's order"),
+        field("quadraticHexahedra", &L::quadraticHexahedra, "", "twenty points each, in VTK's order"),
+        field("triquadraticHexahedra", &L::triquadraticHexahedra, "", "27 points each, in VTK's order"),
         field("texcoords", &L::texcoords, "", "places in a texture; none where the file has none"),
         field("textureTriangles", &L::textureTriangles, "", "texcoords of the corners of each triangle"),
         field("textureQuads", &L::textureQuads, "", "texcoords of the corners of each quad"),
@@ -165,9 +171,13 @@ struct MeshLoader {
       detail::add_sides(mesh.quads, mesh.hexahedra, hexahedronFaces);
       detail::add_sides(mesh.quads, mesh.pyramids, pyramidQuads);
       detail::add_sides(mesh.quads, mesh.prisms, prismQuads);
+      detail::add_sides(mesh.quads, mesh.quadraticHexahedra, quadraticFaces.hexahedronQuads);
+      detail::add_sides(mesh.quads, mesh.triquadraticHexahedra, quadraticFaces.triquadraticQuads);
       detail::add_sides(mesh.triangles, mesh.tetrahedra, ofTetrahedron);
       detail::add_sides(mesh.triangles, mesh.pyramids, pyramidTriangles);
       detail::add_sides(mesh.triangles, mesh.prisms, prismTriangles);
+      detail::add_sides(mesh.triangles, mesh.quadraticTetrahedra, quadraticFaces.tetrahedron);
+      detail::add_sides(mesh.triangles, mesh.quadraticHexahedra, quadraticFaces.hexahedronTriangles);
       detail::add_sides(mesh.edges, mesh.quads, ofQuad);
       detail::add_sides(mesh.edges, mesh.triangles, ofTriangle);
     }
@@ -185,6 +195,9 @@ struct MeshLoader {
     hexahedra = std::move(mesh.hexahedra);
     pyramids = std::move(mesh.pyramids);
     prisms = std::move(mesh.prisms);
+    quadraticTetrahedra = std::move(mesh.quadraticTetrahedra);
+    quadraticHexahedra = std::move(mesh.quadraticHexahedra);
+    triquadraticHexahedra = std::move(mesh.triquadraticHexahedra);
     texcoords = std::move(looks.texcoords);
     textureTriangles = std::move(looks.triangles);
     textureQuads = std::move(looks.quads);
@@ -243,6 +256,9 @@ SINEW_ONCE void turn_volumes(Mesh& mesh) {
   for (auto& h : mesh.hexahedra) std::swap_ranges(h.begin(), h.begin() + 4, h.begin() + 4);
   for (auto& p : mesh.pyramids) std::swap(p[1], p[3]);
   for (auto& p : mesh.prisms) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
+  for (auto& e : mesh.quadraticTetrahedra) turn_inside_out(e);
+  for (auto& e : mesh.quadraticHexahedra) turn_inside_out(e);
+  for (auto& e : mesh.triquadraticHexahedra) turn_inside_out(e);
 }
 SINEW_ONCE void turn_faces(std::vector<Triangle>& triangles, std::vector<Quad>& quads) {
   for (auto& t : triangles) std::reverse(t.begin(), t.end());

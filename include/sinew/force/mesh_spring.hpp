@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/force/spring_network.hpp>
+#include <sinew/topology/element_checks.hpp>
 
 #include <optional>
 #include <vector>
@@ -12,8 +13,8 @@ namespace sinew {
 /// Springs between all pairs of points of each element of the topology, one kind after the other from edges
 /// to hexahedra; two points get one spring, of the first kind that joins them. Edges, triangles and quads
 /// that the topology does not list are those of its higher elements, as in SOFA's containers; pyramids and
-/// prisms have no other springs than these. A stiffness is
-/// a force per relative extension [N]: a spring of length L has stiffness / L [N/m].
+/// prisms have no other springs than these, and elements of second order are refused. A stiffness is a force
+/// per relative extension [N]: a spring of length L has stiffness / L [N/m].
 template <class D>
 struct MeshSpringForceField {
   using Role = role::ForceField;
@@ -63,6 +64,7 @@ struct MeshSpringForceField {
     const std::string where = text(context.where, ": ", component_name<MeshSpringForceField>());
     TopologyView const& t = context.topology;
     detail::check_elements(where, t, context.rest.size());
+    check_first_order(where, t);
 
     SpringNetwork<D> springs(context.rest);
     const double ks = linesStiffness.value_or(stiffness), kd = linesDamping.value_or(damping);

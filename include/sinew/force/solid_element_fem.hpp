@@ -11,6 +11,7 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <string_view>
 #include <vector>
 
@@ -114,9 +115,11 @@ struct SolidElementFEM {
       for (int i = 0; i < arity; ++i)
         for (int k = 0; k < 3; ++k) j.col(k) += Vec3(x[i] - x[0]) * slopes(g, i, k);
       rest.inverse[g] = j.inverse();
-      rest.weight[g] = Real(Shape::weight) * j.determinant();
+      rest.weight[g] = Real(Shape::weight(std::size_t(g))) * j.determinant();
     }
-    if (rest.weight[0] < Real(0))
+    Real volume(0);
+    for (Real const& w : rest.weight) volume += w;
+    if (volume < Real(0))
       for (Real& w : rest.weight) w = -w;
     Vec3 mean = Vec3::Zero();
     for (int i = 0; i < arity; ++i) mean += Vec3(x[i] - x[0]) / Real(arity);
@@ -279,6 +282,9 @@ struct SolidElementFEMForceField {
       throw Error(where,
                   text("the topology has no ", Kind::noun, "; give the node a topology with ", Kind::plural));
     detail::check_indices(where, Kind::noun, elements, context.rest.size());
+    if constexpr (Kind::Shape::nodes > 8)
+      for (std::size_t e = 0; e < elements.size(); ++e)
+        detail::check_distinct(where, Kind::noun, elements[e], e);
     check_one_or_each(where, "youngModulus", youngModulus.size(), elements.size(), Kind::plural);
     std::vector<typename Driver::Rest> rest;
     rest.reserve(elements.size());
@@ -291,9 +297,21 @@ struct SolidElementFEMForceField {
       }
       const LameModuli moduli = lame_moduli(one_or_each(youngModulus, e), poissonRatio);
       rest.push_back(LawOf<D>::restOf(x, Real(moduli.mu), Real(moduli.lambda)));
-      for (const Real w : rest.back().weight)
-        if (!(w > Real(1e-12) * longest * longest * longest))
-          throw Error(where, text(Kind::noun, ' ', e, " is flat or twisted; ", Kind::order));
+      auto const& weights = rest.back().weight;
+      const auto folded = std::count_if(std::begin(weights), std::end(weights), [&](Real w) {
+        return !(w > Real(1e-12) * longest * longest * longest);
+      });
+      if (folded > 0)
+        throw Error(where,
+                    text(Kind::noun,
+                         ' ',
+                         e,
+                         " is flat or twisted: the determinant of its Jacobian is not positive in ",
+                         folded,
+                         " of ",
+                         std::size(weights),
+                         " Gauss points; ",
+                         Kind::order));
     }
     driver.init({elements.begin(), elements.end()}, rest);
   }

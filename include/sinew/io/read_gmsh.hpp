@@ -14,13 +14,16 @@ Mesh parse_gmsh(std::string_view path, std::string_view content);
 
 /// Reads a Gmsh file (.msh), format 1, 2.0 to 2.2 or 4.1, ASCII. Points are in the order of the file,
 /// whatever their numbers; lines, triangles, quads, tetrahedra, hexahedra, prisms and pyramids are read,
-/// point elements and all groups ignored. Throws Error with the line on anything else: binary files, elements
-/// of second order, coordinates that are not finite, unknown nodes, an incomplete file.
+/// point elements and all groups ignored. Of second order, tetrahedra of 10 nodes and hexahedra of 20 or 27
+/// are read, their nodes brought into VTK's order; lines, triangles and quads of second order are cut between
+/// their nodes. Throws Error with the line on anything else: binary files, other elements, coordinates that
+/// are not finite, unknown nodes, an incomplete file.
 Mesh read_gmsh(std::string const& path);
 
 }  // namespace sinew::io
 
 #if SINEW_DEFINES
+#include <sinew/io/cells.hpp>
 #include <sinew/io/text_reader.hpp>
 
 #include <vector>
@@ -186,15 +189,30 @@ class GmshParser {
         return 6;
       case 7:
         return 5;
+      case 8:
+        return 3;
+      case 9:
+        return 6;
+      case 10:
+        return 9;
+      case 11:
+        return 10;
+      case 12:
+        return 27;
       case 15:
         return 1;
+      case 16:
+        return 8;
+      case 17:
+        return 20;
       default:
         break;
     }
     throw in_.error(text("elements of type ",
                          type,
-                         " are of second or higher order, or unknown; ",
-                         "save a mesh of first order (in Gmsh, Mesh.ElementOrder = 1)"));
+                         " are of third or higher order, prisms or pyramids of second order, or unknown; ",
+                         "save a mesh of first order (in Gmsh, Mesh.ElementOrder = 1), or tetrahedra or "
+                         "hexahedra of second order"));
   }
   void element(std::int64_t type) {
     switch (type) {
@@ -212,15 +230,50 @@ class GmshParser {
         return add(mesh_.prisms);
       case 7:
         return add(mesh_.pyramids);
+      case 8:
+        return add_quadratic_edge(mesh_, nodesOfElement<3>());
+      case 9:
+        return add_quadratic_triangle(mesh_, nodesOfElement<6>());
+      case 10:
+        return add_quadratic_quad(mesh_, nodesOfElement<9>());
+      case 11:
+        return add(mesh_.quadraticTetrahedra, gmshQuadraticTetrahedron);
+      case 12:
+        return add(mesh_.triquadraticHexahedra, gmshTriquadraticHexahedron);
+      case 16:
+        return add_quadratic_quad(mesh_, nodesOfElement<8>());
+      case 17:
+        return add(mesh_.quadraticHexahedra, gmshQuadraticHexahedron);
       default:
         node();  // a point
     }
   }
   template <class E>
   void add(std::vector<E>& list) {
+    list.push_back(nodesOfElement<std::tuple_size_v<E>>());
+  }
+  // of another order of nodes
+  template <class E>
+  void add(std::vector<E>& list, E const& numbers) {
+    const E read = nodesOfElement<std::tuple_size_v<E>>();
     E e;
-    for (Index& i : e) i = node();
+    for (std::size_t k = 0; k < e.size(); ++k) e[k] = read[std::size_t(numbers[k])];
     list.push_back(e);
+  }
+  template <std::size_t N>
+  std::array<Index, N> nodesOfElement() {
+    std::array<Index, N> e;
+    const std::size_t line = in_.line();
+    for (Index& i : e) {
+      if constexpr (N > 8) {
+        TextReader ahead = in_;
+        ahead.word();
+        if (ahead.line() != line)
+          throw in_.error(line, text("an element of ", N, " nodes has fewer in its line; give it all"));
+      }
+      i = node();
+    }
+    return e;
   }
   // index of the node whose number comes next; most files number their nodes without gaps
   Index node() {

@@ -132,9 +132,10 @@ inline Mesh parse_vtk_xml(std::string_view path, std::string_view content) {
 }
 
 /// Reads an unstructured grid in VTK's XML format (.vtu): ascii, inline base64 and appended (raw or base64)
-/// data, uncompressed, all pieces one after the other. Linear cells are read, vertices ignored; polygons with
-/// more than four corners become fans of triangles; data at points and cells are ignored. Throws Error with
-/// the line on compressed arrays, other cells, coordinates that are not finite, points out of range, an
+/// data, uncompressed, all pieces one after the other. Linear cells, tetrahedra of 10 points and
+/// hexahedra of 20 or 27 are read, faces of second order cut between their points, vertices ignored; polygons
+/// with more than four corners become fans of triangles; data at points and cells are ignored. Throws Error
+/// with the line on compressed arrays, other cells, coordinates that are not finite, points out of range, an
 /// incomplete file.
 inline Mesh read_vtu(std::string const& path) { return parse_vtu(path, read_file(path)); }
 

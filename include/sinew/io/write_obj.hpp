@@ -7,8 +7,8 @@
 namespace sinew::io {
 
 /// Writes points (v), edges (l), triangles and quads (f) as a Wavefront OBJ file, whole or not at all.
-/// Coordinates read back with the same bits. Throws Error if the mesh has tetrahedra or hexahedra, which OBJ
-/// cannot hold, as check_mesh() does, and as write_file() does.
+/// Coordinates read back with the same bits. Throws Error if the mesh has elements in space, which OBJ cannot
+/// hold, as check_mesh() does, and as write_file() does.
 void write_obj(std::string const& path, Mesh const& mesh);
 
 }  // namespace sinew::io
@@ -29,6 +29,13 @@ SINEW_ONCE void write_obj(std::string const& path, Mesh const& mesh) {
                      " tetrahedra and ",
                      mesh.hexahedra.size(),
                      " hexahedra; write its boundary, or use write_vtu"));
+  for_each_kind(mesh, [&](int kind, auto const& list) {
+    if (dimension_of_kind(kind) == 3 && !list.empty())
+      throw Error(path,
+                  text("OBJ files hold surfaces, but the mesh has a ",
+                       element_kind_name(kind),
+                       "; write its boundary, or use write_vtu"));
+  });
   std::string out = "# Sinew\n";
   for (auto const& p : mesh.positions) {
     out += 'v';

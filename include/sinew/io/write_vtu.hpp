@@ -116,6 +116,9 @@ inline void write_vtu(std::string const& path, Mesh const& mesh, PointData const
   for (Prism& p : wedges) std::swap_ranges(p.begin(), p.begin() + 3, p.begin() + 3);
   cells.add(wedges, 13);
   cells.add(mesh.pyramids, 14);
+  cells.add(mesh.quadraticTetrahedra, 24);
+  cells.add(mesh.quadraticHexahedra, 25);
+  cells.add(mesh.triquadraticHexahedra, 29);
   if (vertices && cells.types.empty()) {
     std::vector<std::array<Index, 1>> points(mesh.positions.size());
     for (std::size_t i = 0; i < points.size(); ++i) points[i][0] = Index(i);

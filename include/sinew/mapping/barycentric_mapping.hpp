@@ -6,6 +6,7 @@
 #include <sinew/mapping/carried_points.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
+#include <sinew/topology/quadratic_elements.hpp>
 #include <sinew/topology/twins.hpp>
 
 #include <algorithm>
@@ -19,9 +20,10 @@ namespace sinew {
 
 /// Each point of the child is carried by the element of the parent that contains it at rest, or by the
 /// nearest one: x = sum_k w_k x_k. The weights are barycentric coordinates in tetrahedra and triangles,
-/// multilinear ones in hexahedra, quads and edges, and the shape functions of pyramids and prisms. Volumes
-/// carry where the parent has some, else surfaces, else edges; on the latter two the child follows its
-/// projection. Affine motion of the parent is reproduced exactly. Where the parent has the points of its
+/// multilinear ones in hexahedra, quads and edges, and the shape functions of pyramids and prisms; of
+/// tetrahedra of ten points and hexahedra of 27, those of the eight linear parts between their points.
+/// Volumes carry where the parent has some, else surfaces, else edges; on the latter two the child follows
+/// its projection. Affine motion of the parent is reproduced exactly. Where the parent has the points of its
 /// RegularGridTopology or SparseGridTopology, the child is looked for in the cells as they lie before
 /// translation, rotation and scale3d of the parent, as in SOFA: these put the child into place with the grid.
 /// Where hexahedra of a SparseGridRamificationTopology are at one place, a point goes with the one whose
@@ -87,6 +89,10 @@ struct BarycentricMapping {
     const std::string where = text(child.where, ": ", component_name<BarycentricMapping>());
     TopologyView const& topology = parent.topology;
     check_element_indices(text(where, ": ", parent.where), topology, parent.rest.size());
+    if (!topology.quadraticHexahedra.empty())
+      throw Error(text(where, ": ", parent.where),
+                  "quadratic hexahedra have no node inside, by whose parts points would be carried; take "
+                  "hexahedra of 27 points, or tetrahedra of ten");
     std::vector<Eigen::Vector3d> points;
     points.reserve(parent.rest.size());
     if (topology.places.size() == parent.rest.size())
@@ -124,6 +130,8 @@ struct BarycentricMapping {
       if constexpr (!Out::rigid) {
         offer(std::type_identity<CollapsedFit<Pyramid>>{}, topology.pyramids);
         offer(std::type_identity<CollapsedFit<Prism>>{}, topology.prisms);
+        offer(std::type_identity<TetrahedronFit>{}, partsOf<Tetrahedron>(topology.quadraticTetrahedra));
+        offer(std::type_identity<MultilinearFit<3>>{}, partsOf<Hexahedron>(topology.triquadraticHexahedra));
       }
     } else if (!topology.triangles.empty() || !topology.quads.empty()) {
       offer(std::type_identity<TriangleFit>{}, topology.triangles);
@@ -138,14 +146,15 @@ struct BarycentricMapping {
 
     if constexpr (!Out::rigid)
       if (!child.faces.empty() && topology.quads.empty() && topology.hexahedra.empty() &&
-          topology.pyramids.empty() && topology.prisms.empty()) {
+          topology.pyramids.empty() && topology.prisms.empty() && topology.triquadraticHexahedra.empty()) {
         if (!topology.tetrahedra.empty())
           goWithNeighbours<TetrahedronFit>(choices, points, topology.tetrahedra, child.faces, places);
         else if (!topology.triangles.empty())
           goWithNeighbours<TriangleFit>(choices, points, topology.triangles, child.faces, places);
       }
     carriers.assign(choices.size(), {});
-    const bool more = !topology.hexahedra.empty() || !topology.pyramids.empty() || !topology.prisms.empty();
+    const bool more = !topology.hexahedra.empty() || !topology.pyramids.empty() || !topology.prisms.empty() ||
+                      !topology.triquadraticHexahedra.empty();
     others.assign(more ? choices.size() : 0, {});
     for (std::size_t i = 0; i < choices.size(); ++i) {
       if (choices[i].score == Choice{}.score)
@@ -198,6 +207,13 @@ struct BarycentricMapping {
   }
 
  private:
+  template <class Part, class Elements>
+  static std::vector<Part> partsOf(Elements const& elements) {
+    std::vector<Part> all;
+    for (auto const& e : elements)
+      for (Part const& part : parts_of(e)) all.push_back(part);
+    return all;
+  }
   // the best element so far for one point; elements with fewer points repeat their first with no weight
   struct Choice {
     double score = -std::numeric_limits<double>::infinity();

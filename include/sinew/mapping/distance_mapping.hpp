@@ -5,6 +5,7 @@
 #include <sinew/mapping/geometric_stiffness.hpp>
 #include <sinew/mapping/measured_elements.hpp>
 #include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/element_checks.hpp>
 
 #include <vector>
 
@@ -174,6 +175,7 @@ struct DistanceMapping {
     auto list = [](auto const& span) { return std::vector(span.begin(), span.end()); };
     auto add = [&](std::vector<Edge> const& more) { edges.insert(edges.end(), more.begin(), more.end()); };
     if (!edges.empty()) return edges;
+    check_first_order("DistanceMapping", t);
     add(edges_of(list(t.triangles))), add(edges_of_quads(list(t.quads)));
     add(edges_of(list(t.tetrahedra))), add(edges_of(list(t.hexahedra)));
     add(edges_of(list(t.pyramids))), add(edges_of(list(t.prisms)));

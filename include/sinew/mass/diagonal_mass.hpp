@@ -5,6 +5,7 @@
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
+#include <sinew/topology/quadratic_shapes.hpp>
 
 #include <cmath>
 #include <limits>
@@ -15,11 +16,12 @@
 namespace sinew {
 
 /// A mass for each point: given one by one, or from a density (or the total) over the elements of the
-/// topology, which share theirs out among their points. Elements are those in space; where there are none,
-/// the triangles and quads (and the density is that of an area); else the edges (that of a length). Over
-/// values with fewer coordinates than space, such as temperatures, that stand in a child node of the body,
-/// they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no element has
-/// has no mass: it has no weight, and no explicit solver can move it.
+/// topology, which share theirs out among their points, those of second order in proportion to the diagonal
+/// of their consistent mass (Hinton, Rock, Zienkiewicz 1976). Elements are those in space; where there are
+/// none, the triangles and quads (and the density is that of an area); else the edges (that of a length).
+/// Over values with fewer coordinates than space, such as temperatures, that stand in a child node of the
+/// body, they are those of the body, and the density is a heat capacity [J/(m^3 K)]. A point that no element
+/// has has no mass: it has no weight, and no explicit solver can move it.
 template <class D>
 struct DiagonalMass {
   using Role = role::Mass;
@@ -149,6 +151,19 @@ struct DiagonalMass {
         }
       };
       addAll(t.hexahedra), addAll(t.pyramids), addAll(t.prisms);
+      auto addQuadratic = [&]<std::size_t N>(std::span<std::array<Index, N> const> elements) {
+        for (auto const& e : elements) {
+          Eigen::Matrix<double, 3, int(N)> nodes;
+          for (std::size_t k = 0; k < N; ++k) nodes.col(Eigen::Index(k)) = at(e[k]);
+          const auto masses = lumped_mass<int(N)>(quadratic_mass(nodes));
+          for (std::size_t k = 0; k < N; ++k) {
+            size[std::size_t(e[k])] += masses[Eigen::Index(k)];
+            alone[std::size_t(e[k])] = false;
+          }
+        }
+      };
+      addQuadratic(t.quadraticTetrahedra), addQuadratic(t.quadraticHexahedra);
+      addQuadratic(t.triquadraticHexahedra);
     } else if (!t.triangles.empty() || !t.quads.empty()) {
       // the triangles of a grid are the halves of its quads
       if (t.grid[0] == 0 || t.quads.empty())

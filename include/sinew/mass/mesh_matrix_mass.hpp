@@ -7,6 +7,7 @@
 #include <sinew/mass/lumped_mass.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/hexahedra.hpp>
+#include <sinew/topology/quadratic_shapes.hpp>
 
 #include <array>
 #include <optional>
@@ -15,9 +16,31 @@
 namespace sinew {
 
 /// Which elements of a topology have mass; `highest`: those of the highest dimension.
-enum class MassElements { highest, edges, triangles, quads, tetrahedra, hexahedra, pyramids, prisms };
-inline constexpr std::array<std::string_view, 8> enum_names(MassElements) {
-  return {"highest", "edges", "triangles", "quads", "tetrahedra", "hexahedra", "pyramids", "prisms"};
+enum class MassElements {
+  highest,
+  edges,
+  triangles,
+  quads,
+  tetrahedra,
+  hexahedra,
+  pyramids,
+  prisms,
+  quadraticTetrahedra,
+  quadraticHexahedra,
+  triquadraticHexahedra
+};
+inline constexpr std::array<std::string_view, 11> enum_names(MassElements) {
+  return {"highest",
+          "edges",
+          "triangles",
+          "quads",
+          "tetrahedra",
+          "hexahedra",
+          "pyramids",
+          "prisms",
+          "quadraticTetrahedra",
+          "quadraticHexahedra",
+          "triquadraticHexahedra"};
 }
 
 /// The consistent mass of the elements of the topology (Archer 1963): with N_i the shape functions and rho
@@ -25,14 +48,17 @@ inline constexpr std::array<std::string_view, 8> enum_names(MassElements) {
 ///   M_ij = integral of rho N_i N_j over the undeformed body         [kg], times the identity
 /// for elements in space; where there are none, for triangles and quads (rho is that of an area); else for
 /// edges (that of a length); or for those of one kind. `lumping` keeps its row sums only, on the
-/// diagonal. Without a density the body has a total of 1 kg.
+/// diagonal; of elements of second order, whose row sums are negative at corners, it keeps the diagonal, in
+/// proportion (Hinton, Rock, Zienkiewicz 1976). Without a density the body has a total of 1 kg. The weight of
+/// point i is that of its row sum, unless `lumping`.
 ///
 /// Over values with fewer coordinates than space, such as temperatures, that stand in a child node of the
 /// body, the elements are those of the body, undeformed, and the density is a heat capacity [J/(m^3 K)].
 ///
 /// M^-1 f, which explicit solvers ask for, is taken with the row sums, lumped or not: the inverse of M is
 /// full, and would carry the forces on fixed points to their neighbours. EulerExplicitSolver solves M a = f
-/// where a linear solver stands by. (SOFA refuses without one.)
+/// where a linear solver stands by. (SOFA refuses without one.) Elements of second order need that, or
+/// `lumping`.
 template <class D>
 struct MeshMatrixMass {
   using Role = role::Mass;
@@ -58,11 +84,12 @@ struct MeshMatrixMass {
               &M::massDensity,
               "kg/m^3",
               "density, [kg/m^2] of a surface, [kg/m] of a wire: one for all elements, or one for each, "
-              "tetrahedra before hexahedra, pyramids and prisms, and triangles before quads",
+              "tetrahedra before hexahedra, pyramids, prisms and those of second order, and triangles before "
+              "quads",
               range::positive)
             .oneEach(Of::elements),
         field("totalMass", &M::totalMass, "kg", "mass of the body", range::positive).also("totalmass"),
-        field("lumping", &M::lumping, "", "keep the row sums only"),
+        field("lumping", &M::lumping, "", "keep a diagonal mass only"),
         field("elements", &M::elements, "", "which elements have mass"),
         field("fillWeighted",
               &M::fillWeighted,
@@ -79,7 +106,8 @@ struct MeshMatrixMass {
     totalMass.reset();
   }
 
-  LumpedMass<D> lumped{};          // the row sums
+  LumpedMass<D> lumped{};          // the row sums, or what stands for them
+  std::vector<Real> weights{};     // [kg] the row sums, where these are others
   ConsistentMass<D> consistent{};  // empty when lumped
 
   /// M^-1 undoes M.
@@ -118,37 +146,57 @@ struct MeshMatrixMass {
     if (!massDensity.empty())
       check_one_or_each(where, "massDensity", massDensity.size(), count, "elements", "one for all");
 
-    std::vector<double> rows(n, 0.0), values(consistent.matrix.columns.size(), 0.0);
+    std::vector<double> rows(n, 0.0), diagonal(n, 0.0), values(consistent.matrix.columns.size(), 0.0);
     double total = 0;
+    bool differ = false;
     forEachElement(context, [&](auto const& e, std::size_t number, auto const& mass) {
       const double density = massDensity.empty() ? 1 : one_or_each(massDensity, number);
+      if constexpr (constexpr int nodes = std::decay_t<decltype(mass)>::RowsAtCompileTime; nodes > 8) {
+        const auto lumps = lumped_mass<nodes>(mass);
+        for (std::size_t i = 0; i < e.size(); ++i)
+          diagonal[std::size_t(e[i])] += density * lumps[Eigen::Index(i)];
+        differ = true;
+      }
       for (std::size_t i = 0; i < e.size(); ++i)
         for (std::size_t j = 0; j < e.size(); ++j) {
           const double m = density * mass(Eigen::Index(i), Eigen::Index(j));
           if (e[i] <= e[j]) values[std::size_t(consistent.matrix.slot(int(e[i]), int(e[j])))] += m;
           rows[std::size_t(e[i])] += m;
+          if (mass.rows() <= 8) diagonal[std::size_t(e[i])] += m;
           total += m;
         }
     });
     if (ofValues)
       for (const std::size_t i : fill_unused(rows))
-        values[std::size_t(consistent.matrix.slot(int(i), int(i)))] = rows[i];
+        diagonal[i] = rows[i], values[std::size_t(consistent.matrix.slot(int(i), int(i)))] = rows[i];
     scale = massDensity.empty() ? totalMass.value_or(1) / total : 1;
     for (std::size_t k = 0; k < values.size(); ++k) consistent.matrix.values[k] = Real(scale * values[k]);
     std::vector<MassType> sums(n);
-    for (std::size_t i = 0; i < n; ++i) sums[i] = MassType(scale * rows[i]);
+    for (std::size_t i = 0; i < n; ++i) sums[i] = MassType(scale * diagonal[i]);
     lumped.init(where, sums);
+    weights.clear();
+    if (differ && !lumping)
+      for (const double m : rows) weights.push_back(Real(scale * m));
     if (lumping) consistent = {};
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
-    lumped.addForce(p, f, x, v);
+    if (weights.empty()) return lumped.addForce(p, f, x, v);
+    for (std::size_t i = 0; i < f.size(); ++i)
+      for (int c = 0; c < D::spatial; ++c) f[i][c] += weights[i] * Real(p.gravity[c]);
   }
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
     if (lumping) return lumped.addMDx(f, x, dx, Real(factor));
     consistent.addMDx(f, dx, factor);
   }
-  void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const { lumped.accFromF(a, x, f); }
+  /// Throws Error for elements of second order, of which the weight is no multiple of the lumped mass.
+  void accFromF(VecDeriv& a, VecCoord const& x, VecDeriv const& f) const {
+    if (!weights.empty())
+      throw Error(lumped.place,
+                  "the consistent mass of elements of second order is not inverted point by point; set "
+                  "lumping, or give the node a linear solver or an implicit one");
+    lumped.accFromF(a, x, f);
+  }
   double kineticEnergy(VecCoord const& x, VecDeriv const& v) const {
     return lumping ? lumped.kineticEnergy(x, v) : consistent.kineticEnergy(v);
   }
@@ -204,6 +252,12 @@ struct MeshMatrixMass {
     };
     if (have(MassElements::pyramids, volumes)) collapsed(t.pyramids);
     if (have(MassElements::prisms, volumes)) collapsed(t.prisms);
+    auto quadratic = [&]<std::size_t N>(std::span<std::array<Index, N> const> all) {
+      for (auto const& e : all) f(e, number++, quadratic_mass(cornersOf(e)));
+    };
+    if (have(MassElements::quadraticTetrahedra, volumes)) quadratic(t.quadraticTetrahedra);
+    if (have(MassElements::quadraticHexahedra, volumes)) quadratic(t.quadraticHexahedra);
+    if (have(MassElements::triquadraticHexahedra, volumes)) quadratic(t.triquadraticHexahedra);
     // the triangles of a grid are the halves of its quads
     if (have(MassElements::triangles, surfaces && (t.grid[0] == 0 || t.quads.empty())))
       simplices(t.triangles, [&](Triangle const& e) {

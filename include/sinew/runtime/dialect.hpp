@@ -265,17 +265,50 @@ inline constexpr std::array overElements = std::to_array<OverElements>(
      {"CorotationalFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "large"},
      {"CorotationalFEMForceField", "Prism", "PrismFEMForceField", "method", "polar"},
      {"CorotationalFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "polar"},
+     {"CorotationalFEMForceField",
+      "QuadraticTetrahedron",
+      "QuadraticTetrahedronFEMForceField",
+      "method",
+      "polar"},
+     {"CorotationalFEMForceField",
+      "QuadraticHexahedron",
+      "QuadraticHexahedronFEMForceField",
+      "method",
+      "polar"},
+     {"CorotationalFEMForceField",
+      "TriquadraticHexahedron",
+      "TriquadraticHexahedronFEMForceField",
+      "method",
+      "polar"},
      {"LinearSmallStrainFEMForceField", "Hexahedron", "HexahedronFEMForceField", "method", "small"},
      {"LinearSmallStrainFEMForceField", "Tetrahedron", "TetrahedronFEMForceField", "method", "small"},
      {"LinearSmallStrainFEMForceField", "Prism", "PrismFEMForceField", "method", "small"},
      {"LinearSmallStrainFEMForceField", "Pyramid", "PyramidFEMForceField", "method", "small"},
+     {"LinearSmallStrainFEMForceField",
+      "QuadraticTetrahedron",
+      "QuadraticTetrahedronFEMForceField",
+      "method",
+      "small"},
+     {"LinearSmallStrainFEMForceField",
+      "QuadraticHexahedron",
+      "QuadraticHexahedronFEMForceField",
+      "method",
+      "small"},
+     {"LinearSmallStrainFEMForceField",
+      "TriquadraticHexahedron",
+      "TriquadraticHexahedronFEMForceField",
+      "method",
+      "small"},
      {"FEMMass", "Edge", "MeshMatrixMass", "elements", "edges"},
      {"FEMMass", "Triangle", "MeshMatrixMass", "elements", "triangles"},
      {"FEMMass", "Quad", "MeshMatrixMass", "elements", "quads"},
      {"FEMMass", "Tetrahedron", "MeshMatrixMass", "elements", "tetrahedra"},
      {"FEMMass", "Hexahedron", "MeshMatrixMass", "elements", "hexahedra"},
      {"FEMMass", "Prism", "MeshMatrixMass", "elements", "prisms"},
-     {"FEMMass", "Pyramid", "MeshMatrixMass", "elements", "pyramids"}});
+     {"FEMMass", "Pyramid", "MeshMatrixMass", "elements", "pyramids"},
+     {"FEMMass", "QuadraticTetrahedron", "MeshMatrixMass", "elements", "quadraticTetrahedra"},
+     {"FEMMass", "QuadraticHexahedron", "MeshMatrixMass", "elements", "quadraticHexahedra"},
+     {"FEMMass", "TriquadraticHexahedron", "MeshMatrixMass", "elements", "triquadraticHexahedra"}});
 constexpr bool is_over_elements(std::string_view tag) {
   for (auto const& o : overElements)
     if (o.name == tag) return true;
@@ -403,9 +436,11 @@ inline bool container_holds(std::string_view tag, std::string_view list) {
   if (list == "edges") return !is("PointSet");
   if (list == "triangles") return is("TriangleSet") || is("TetrahedronSet");
   if (list == "quads") return is("QuadSet") || is("HexahedronSet");
-  if (list == "tetrahedra") return is("TetrahedronSet");
+  if (list == "tetrahedra" || list == "quadraticTetrahedra") return is("TetrahedronSet");
   if (list == "pyramids" || list == "prisms") return false;
-  return list != "hexahedra" || is("HexahedronSet");
+  const bool hexahedra =
+      list == "hexahedra" || list == "quadraticHexahedra" || list == "triquadraticHexahedra";
+  return !hexahedra || is("HexahedronSet");
 }
 inline bool class_without_meaning(std::string_view name) {
   if (has(withoutMeaning, name) || is_of_shader(name)) return true;

@@ -108,7 +108,10 @@ SINEW_ONCE RemovedBorder::RemovedBorder(TopologyView const& before,
   const Border ofGone = border_of(gone(before.tetrahedra, stays[3]),
                                   gone(before.hexahedra, stays[4]),
                                   gone(before.pyramids, stays[5]),
-                                  gone(before.prisms, stays[6]));
+                                  gone(before.prisms, stays[6]),
+                                  gone(before.quadraticTetrahedra, stays[7]),
+                                  gone(before.quadraticHexahedra, stays[8]),
+                                  gone(before.triquadraticHexahedra, stays[9]));
   triangles_.set(was.triangles, ofGone.triangles);
   quads_.set(was.quads, ofGone.quads);
 }

@@ -448,7 +448,7 @@ class TopologyEdit {
         return kinds({4});
       case Of::volumes:
         return kinds({3, 4});
-      case Of::elements:  // pyramids and prisms never come
+      case Of::elements:  // pyramids, prisms and elements of second order never come
         return kinds({0, 1, 2, 3, 4});
       default:
         return false;
@@ -645,6 +645,9 @@ class TopologyEdit {
     if (lists.hexahedra) *lists.hexahedra = now.hexahedra;
     if (lists.pyramids) *lists.pyramids = now.pyramids;
     if (lists.prisms) *lists.prisms = now.prisms;
+    if (lists.quadraticTetrahedra) *lists.quadraticTetrahedra = now.quadraticTetrahedra;
+    if (lists.quadraticHexahedra) *lists.quadraticHexahedra = now.quadraticHexahedra;
+    if (lists.triquadraticHexahedra) *lists.triquadraticHexahedra = now.triquadraticHexahedra;
   }
   static void follow(ElementLists const& lists, TopologyChange const& change) {
     if (lists.positions) change.points.filter(*lists.positions);

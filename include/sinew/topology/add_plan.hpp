@@ -19,6 +19,9 @@ struct AddPlan {
     std::vector<Hexahedron> hexahedra{};
     std::vector<Pyramid> pyramids{};
     std::vector<Prism> prisms{};
+    std::vector<QuadraticTetrahedron> quadraticTetrahedra{};
+    std::vector<QuadraticHexahedron> quadraticHexahedra{};
+    std::vector<TriquadraticHexahedron> triquadraticHexahedra{};
 
     /// f(kind, list) for each kind.
     template <class F>
@@ -162,7 +165,10 @@ struct ElementsThatFollow {
              {t.tetrahedra.begin(), t.tetrahedra.end()},
              {t.hexahedra.begin(), t.hexahedra.end()},
              {t.pyramids.begin(), t.pyramids.end()},
-             {t.prisms.begin(), t.prisms.end()}};
+             {t.prisms.begin(), t.prisms.end()},
+             {t.quadraticTetrahedra.begin(), t.quadraticTetrahedra.end()},
+             {t.quadraticHexahedra.begin(), t.quadraticHexahedra.end()},
+             {t.triquadraticHexahedra.begin(), t.triquadraticHexahedra.end()}};
     lists.forEach([&](int kind, auto const& list) { stays[std::size_t(kind)].assign(list.size(), true); });
   }
   void add(AddedElements const& added) {
@@ -287,6 +293,21 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   same(4, is.hexahedra, from.hexahedra, t.lists.hexahedra, source.lists.hexahedra);
   same(5, is.pyramids, from.pyramids, t.lists.pyramids, source.lists.pyramids);
   same(6, is.prisms, from.prisms, t.lists.prisms, source.lists.prisms);
+  same(7,
+       is.quadraticTetrahedra,
+       from.quadraticTetrahedra,
+       t.lists.quadraticTetrahedra,
+       source.lists.quadraticTetrahedra);
+  same(8,
+       is.quadraticHexahedra,
+       from.quadraticHexahedra,
+       t.lists.quadraticHexahedra,
+       source.lists.quadraticHexahedra);
+  same(9,
+       is.triquadraticHexahedra,
+       from.triquadraticHexahedra,
+       t.lists.triquadraticHexahedra,
+       source.lists.triquadraticHexahedra);
   if (any) return true;
 
   // what has no element yet goes by its conversion
@@ -296,7 +317,10 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   const Border was = border_of(from), now = border_of(outermost(source.lists.tetrahedra, source.come[3]),
                                                       outermost(source.lists.hexahedra, source.come[4]),
                                                       source.lists.pyramids,
-                                                      source.lists.prisms);
+                                                      source.lists.prisms,
+                                                      source.lists.quadraticTetrahedra,
+                                                      source.lists.quadraticHexahedra,
+                                                      source.lists.triquadraticHexahedra);
   if (const int o = made("Tetra2TriangleTopologicalMapping",
                          is.triangles,
                          ElementsThatFollow::listed(is.triangles, was.triangles));

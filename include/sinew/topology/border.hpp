@@ -3,6 +3,7 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/mesh.hpp>
+#include <sinew/topology/quadratic_elements.hpp>
 
 #include <array>
 #include <span>
@@ -13,7 +14,7 @@ namespace sinew {
 
 /// The faces that one volume element only has: the surface of a body.
 struct Border {
-  std::vector<Triangle> triangles{};  // of tetrahedra, pyramids and prisms
+  std::vector<Triangle> triangles{};  // of tetrahedra, pyramids, prisms and quadratic hexahedra
   std::vector<Quad> quads{};          // of hexahedra, pyramids and prisms
 };
 
@@ -27,14 +28,23 @@ std::array<Index, N> sorted_corners(std::array<Index, N> face) {
 }
 
 /// The border of volume elements, its faces oriented outwards where these are positively oriented, in the
-/// order in which elements give them.
+/// order in which elements give them. Faces of elements of second order are cut between their nodes.
 Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra,
-                 std::span<Pyramid const> pyramids = {}, std::span<Prism const> prisms = {});
+                 std::span<Pyramid const> pyramids = {}, std::span<Prism const> prisms = {},
+                 std::span<QuadraticTetrahedron const> quadraticTetrahedra = {},
+                 std::span<QuadraticHexahedron const> quadraticHexahedra = {},
+                 std::span<TriquadraticHexahedron const> triquadraticHexahedra = {});
 
 /// The same of all elements of a mesh, or of what has lists of these names.
 template <class Lists>
 Border border_of(Lists const& lists) {
-  return border_of(lists.tetrahedra, lists.hexahedra, lists.pyramids, lists.prisms);
+  return border_of(lists.tetrahedra,
+                   lists.hexahedra,
+                   lists.pyramids,
+                   lists.prisms,
+                   lists.quadraticTetrahedra,
+                   lists.quadraticHexahedra,
+                   lists.triquadraticHexahedra);
 }
 
 // corners of faces, counter-clockwise seen from outside
@@ -108,13 +118,20 @@ struct FacesOfElements {
 namespace sinew {
 
 SINEW_ONCE Border border_of(std::span<Tetrahedron const> tetrahedra, std::span<Hexahedron const> hexahedra,
-                            std::span<Pyramid const> pyramids, std::span<Prism const> prisms) {
+                            std::span<Pyramid const> pyramids, std::span<Prism const> prisms,
+                            std::span<QuadraticTetrahedron const> quadraticTetrahedra,
+                            std::span<QuadraticHexahedron const> quadraticHexahedra,
+                            std::span<TriquadraticHexahedron const> triquadraticHexahedra) {
   constexpr std::size_t ofHexahedron[6][4] = {
       {0, 3, 2, 1}, {4, 5, 6, 7}, {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}};
   detail::FacesOfElements<3> triangles;
   triangles.add(tetrahedra, tetrahedronFaces).add(pyramids, pyramidTriangles).add(prisms, prismTriangles);
+  triangles.add(quadraticTetrahedra, quadraticFaces.tetrahedron)
+      .add(quadraticHexahedra, quadraticFaces.hexahedronTriangles);
   detail::FacesOfElements<4> quads;
   quads.add(hexahedra, ofHexahedron).add(pyramids, pyramidQuads).add(prisms, prismQuads);
+  quads.add(quadraticHexahedra, quadraticFaces.hexahedronQuads)
+      .add(triquadraticHexahedra, quadraticFaces.triquadraticQuads);
   return {triangles.border(), quads.border()};
 }
 

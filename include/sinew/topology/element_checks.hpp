@@ -39,6 +39,9 @@ void check_tetrahedra(std::string const& where, std::span<Tetrahedron const> tet
 /// Throws Error where an element of a topology refers to a point that the state has not.
 void check_element_indices(std::string const& where, TopologyView const& topology, std::size_t points);
 
+/// Throws Error where a topology has elements of second order, for what works with those of first order only.
+void check_first_order(std::string const& where, TopologyView const& topology);
+
 /// Throws Error where values lie on a body with another number of points.
 template <class D>
 void check_values_of_body(std::string const& where, InitContext<D> const& context) {
@@ -70,6 +73,18 @@ namespace sinew {
 SINEW_ONCE void check_element_indices(std::string const& where, TopologyView const& topology,
                                       std::size_t points) {
   detail::check_elements(where, topology, points);
+}
+
+SINEW_ONCE void check_first_order(std::string const& where, TopologyView const& topology) {
+  for_each_kind(topology, [&](int kind, auto const& list) {
+    if (kind >= int(ElementKind::quadraticTetrahedron) && !list.empty())
+      throw Error(
+          where,
+          text("the topology has a ",
+               element_kind_name(kind),
+               ", and this takes no elements of second order; give the node a topology of first order "
+               "(in Gmsh, Mesh.ElementOrder = 1)"));
+  });
 }
 
 }  // namespace sinew

@@ -27,7 +27,7 @@ struct PrismShape {
   static constexpr double low = 0.21132486540518711775, high = 1 - low;  // (1 -+ 1/sqrt 3)/2
   static constexpr ReferencePlaces<6> places{
       {{a, a, low}, {b, a, low}, {a, b, low}, {a, a, high}, {b, a, high}, {a, b, high}}};
-  static constexpr double weight = 1. / 12;
+  static constexpr double weight(std::size_t) { return 1. / 12; }
 
   static constexpr double slope(int i, int k, std::array<double, 3> const& q) {
     const double corner[3] = {1 - q[0] - q[1], q[0], q[1]}, byCorner[3][2] = {{-1, -1}, {1, 0}, {0, 1}};
@@ -45,7 +45,7 @@ struct PyramidShape {
   static constexpr double g = 0.57735026918962576451;  // 1/sqrt 3
   static constexpr ReferencePlaces<8> places{
       {{-g, -g, -g}, {g, -g, -g}, {-g, g, -g}, {g, g, -g}, {-g, -g, g}, {g, -g, g}, {-g, g, g}, {g, g, g}}};
-  static constexpr double weight = 1;
+  static constexpr double weight(std::size_t) { return 1; }
 
   static constexpr double slope(int i, int k, std::array<double, 3> const& q) {
     if (i == 4) return k == 2 ? 0.5 : 0;

@@ -28,6 +28,9 @@ struct MeshTopology {
   std::vector<Hexahedron> hexahedra{};
   std::vector<Pyramid> pyramids{};
   std::vector<Prism> prisms{};
+  std::vector<QuadraticTetrahedron> quadraticTetrahedra{};
+  std::vector<QuadraticHexahedron> quadraticHexahedra{};
+  std::vector<TriquadraticHexahedron> triquadraticHexahedra{};
   DataFile filename{};
   std::string conversion{};
 
@@ -53,7 +56,27 @@ struct MeshTopology {
               "",
               "six points each: those of a triangle, and in the same order those of the opposite one",
               range::nonNegative),
-        field("filename", &T::filename, "", "a file (.msh, .obj, .stl, .ply, .vtk) with what is not given here")
+        field(
+            "quadraticTetrahedra",
+            &T::quadraticTetrahedra,
+            "",
+            "ten points each: four corners, and in VTK's order the middles of the edges 01, 12, 20, 03, 13, "
+            "23",
+            range::nonNegative),
+        field("quadraticHexahedra",
+              &T::quadraticHexahedra,
+              "",
+              "twenty points each, in VTK's order: eight corners, the middles of the edges around the first "
+              "face, around the opposite one, and between them",
+              range::nonNegative),
+        field("triquadraticHexahedra",
+              &T::triquadraticHexahedra,
+              "",
+              "27 points each, in VTK's order: those of a quadratic hexahedron, the middles of the faces at "
+              "corners 0 and 7, 1 and 6, 0 and 5, 3 and 6, 0 and 2, 4 and 6, and of all",
+              range::nonNegative),
+        field(
+            "filename", &T::filename, "", "a file (.msh, .obj, .stl, .ply, .vtk) with what is not given here")
             .also("fileTopology"),
         more...);
   }
@@ -78,13 +101,26 @@ struct MeshTopology {
             .hexahedra = hexahedra,
             .pyramids = pyramids,
             .prisms = prisms,
+            .quadraticTetrahedra = quadraticTetrahedra,
+            .quadraticHexahedra = quadraticHexahedra,
+            .triquadraticHexahedra = triquadraticHexahedra,
             .grows = grows};
   }
 
   /// The lists, for change: from here on they are no longer those of the file.
   ElementLists edit() {
     filename = {};
-    return {&position, &edges, &triangles, &quads, &tetrahedra, &hexahedra, &pyramids, &prisms};
+    return {&position,
+            &edges,
+            &triangles,
+            &quads,
+            &tetrahedra,
+            &hexahedra,
+            &pyramids,
+            &prisms,
+            &quadraticTetrahedra,
+            &quadraticHexahedra,
+            &triquadraticHexahedra};
   }
 
   /// Takes from the file, if one is named, the lists that are empty. Throws Error when it cannot be read.
@@ -121,6 +157,8 @@ SINEW_ONCE void MeshTopology::generate(std::string_view where) {
   take(position, mesh.positions), take(edges, mesh.edges), take(triangles, mesh.triangles);
   take(quads, mesh.quads), take(tetrahedra, mesh.tetrahedra), take(hexahedra, mesh.hexahedra);
   take(pyramids, mesh.pyramids), take(prisms, mesh.prisms);
+  take(quadraticTetrahedra, mesh.quadraticTetrahedra), take(quadraticHexahedra, mesh.quadraticHexahedra);
+  take(triquadraticHexahedra, mesh.triquadraticHexahedra);
 }
 
 }  // namespace sinew

@@ -137,8 +137,8 @@ SINEW_ONCE RemovalPlan plan_element_removal(std::size_t points, std::vector<Topo
     return a.points.size() > b.points.size() ||
            (a.points.size() == b.points.size() && a.kind > b.kind);  // a quad in a tetrahedron
   };
-  // larger ones first; in a hexahedron lie all others
-  for (const int kind : {6, 5, 3, 2, 1, 0})
+  // larger ones first; in those of 27 points lie all others
+  for (const int kind : {8, 7, 4, 6, 5, 3, 2, 1, 0})
     forEachElement([&](ElementOfBody const& e) {
       if (e.kind != kind || !touched[std::size_t(e.points[0])]) return;
       bool inGone = false, inKept = false;

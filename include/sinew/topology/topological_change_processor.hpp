@@ -154,10 +154,14 @@ struct TopologicalChangeProcessor {
       if (loop && !(changes.back().time > 0))
         throw Error(where, "the file ends at time 0, and cannot go round in a loop; give later times");
     }
-    if (!topology.pyramids.empty() || !topology.prisms.empty())
+    for_each_kind(topology, [&](int kind, auto const& list) {
+      if (kind < listed_kinds || list.empty()) return;
       throw Error(where,
-                  "the topology of its node has pyramids or prisms, which neither lists nor files name; "
-                  "remove them by a TopologyBoundingTrasher, or a CarvingManager");
+                  text("the topology of its node has a ",
+                       element_kind_name(kind),
+                       ", which neither lists nor files name; "
+                       "remove them by a TopologyBoundingTrasher, or a CarvingManager"));
+    });
     if (kindOf(topology) < 0 && !adds && pointsToRemove.empty())
       throw Error(where, "the topology of its node has no elements that could be removed; give it some");
   }
@@ -240,7 +244,7 @@ struct TopologicalChangeProcessor {
   std::string_view notice() const { return noticed; }
 
  private:
-  // of its lists and files, which have neither pyramids nor prisms; points are behind them
+  // of its lists and files, which end with hexahedra; points are behind them
   static constexpr int listed_kinds = int(ElementKind::hexahedron) + 1;
   static constexpr std::size_t kinds = listed_kinds + 1;
   using Sizes = std::array<std::size_t, kinds>;
@@ -382,6 +386,9 @@ struct TopologicalChangeProcessor {
         return behind(added.hexahedra);
       case ElementKind::pyramid:
       case ElementKind::prism:
+      case ElementKind::quadraticTetrahedron:
+      case ElementKind::quadraticHexahedron:
+      case ElementKind::triquadraticHexahedron:
         return;
     }
   }

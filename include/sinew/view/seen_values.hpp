@@ -200,7 +200,15 @@ class SeenValues {
             at[k][c] = double(lane(x[k][c], l));
             of[k][c] = double(lane(f[k][c], l));
           }
-        const double volume = detail::volume_of(at);
+        const double volume = [&] {
+          if constexpr (n <= 8) {
+            return detail::volume_of(at);
+          } else {  // at rest
+            double sum = 0;
+            for (auto const& w : pack.rest.weight) sum += double(lane(w, l));
+            return sum;
+          }
+        }();
         if (!(volume > 0) || !std::isfinite(volume)) continue;
         const double value = quantity_ == Quantity::vonMises ? detail::von_mises(at, of, volume)
                                                              : double(lane(energy, l)) / volume;

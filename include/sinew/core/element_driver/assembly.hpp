@@ -17,18 +17,27 @@ namespace sinew {
 
 namespace detail {
 
-// f<I, J>() for each pair of points I <= J of so many
+// f(i, j) for each pair of points i <= j of so many: constants, each with code of its own, where these are
+// few
 template <int Arity, class F>
 void for_each_pair(F&& f) {
-  [&]<int... P>(std::integer_sequence<int, P...>) {
-    (
-        [&] {
-          constexpr int i = P / Arity, j = P % Arity;
-          if constexpr (i <= j) f.template operator()<i, j>();
-        }(),
-        ...);
-  }(std::make_integer_sequence<int, Arity * Arity>{});
+  if constexpr (Arity > 8) {
+    for (int i = 0; i < Arity; ++i)
+      for (int j = i; j < Arity; ++j) f(i, j);
+  } else {
+    [&]<int... P>(std::integer_sequence<int, P...>) {
+      (
+          [&] {
+            constexpr int i = P / Arity, j = P % Arity;
+            if constexpr (i <= j) f(std::integral_constant<int, i>{}, std::integral_constant<int, j>{});
+          }(),
+          ...);
+    }(std::make_integer_sequence<int, Arity * Arity>{});
+  }
 }
+// whether two such numbers are known to be one
+template <class I, class J>
+inline constexpr bool same_point = !std::is_integral_v<I> && std::is_same_v<I, J>;
 template <int Arity>
 constexpr int pair_number(int i, int j) {
   return i * Arity - i * (i - 1) / 2 + j - i;
@@ -86,12 +95,12 @@ struct ElementSlots {
   /// `first`: the number of the block of the body's first point.
   template <class Pack, class Matrix>
   void bind(Pack const& pack, int first, Matrix& matrix) {
-    detail::for_each_pair<Pack::arity>([&]<int I, int J>() {
-      constexpr int pair = detail::pair_number<Pack::arity>(I, J);
+    detail::for_each_pair<Pack::arity>([&](auto i, auto j) {
+      const int pair = detail::pair_number<Pack::arity>(i, j);
       for (int l = 0; l < W; ++l) {
-        const int i = first + pack.index[I][l], j = first + pack.index[J][l];
-        slot[pair][l] = matrix.slot(std::min(i, j), std::max(i, j));
-        set(pair, l, i > j);
+        const int a = first + pack.index[i][l], b = first + pack.index[j][l];
+        slot[pair][l] = matrix.slot(std::min(a, b), std::max(a, b));
+        set(pair, l, a > b);
       }
     });
   }
@@ -131,19 +140,19 @@ constexpr int side_of(std::integer_sequence<int, Side...>, int i) {
 }
 template <class Sides, int N, class Law, class Sink, class Pack, class Real>
 void add_between(Law const& law, Sink const& sink, Pack const& pack, Real k, Real b) {
-  for_each_pair<Pack::arity>([&]<int I, int J>() {
-    add_pair<side_of(Sides{}, I), side_of(Sides{}, J), N>(law, sink, pack, I, J, k, b);
+  for_each_pair<Pack::arity>([&]<class I, class J>(I i, J j) {
+    add_pair<side_of(Sides{}, I::value), side_of(Sides{}, J::value), N>(law, sink, pack, i, j, k, b);
   });
 }
 
 // all blocks of an element that is alone in its pack, to their slots
 template <int N, class Law, class Pack, class Slots, class Matrix, class Real>
 void add_blocks_of_one(Law const& law, Pack const& pack, Slots const& slots, Matrix& matrix, Real k, Real b) {
-  for_each_pair<Pack::arity>([&]<int I, int J>() {
-    constexpr int pair = pair_number<Pack::arity>(I, J);
+  for_each_pair<Pack::arity>([&](auto i, auto j) {
+    const int pair = pair_number<Pack::arity>(i, j);
     add_scalars<N>(matrix.block(slots.slot[pair][0]),
-                   law.block(pack.rest, pack.tangent, I, J, k, b),
-                   I != J && slots.transposed[pair] != 0);
+                   law.block(pack.rest, pack.tangent, i, j, k, b),
+                   i != j && slots.transposed[pair] != 0);
   });
 }
 

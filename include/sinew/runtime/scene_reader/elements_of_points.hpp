@@ -28,8 +28,16 @@ inline SceneItem* add_topology(SceneItem& model, SceneItem const& elements, Scen
   XmlElement& element = items.partOf(*model.element, "MeshTopology");
   const std::size_t offset = model.element->offset;
   element.attributes = {{"name", text(elements.name, "_elements"), offset}};
-  for (const std::string_view list :
-       {"edges", "triangles", "quads", "tetrahedra", "hexahedra", "pyramids", "prisms"})
+  for (const std::string_view list : {"edges",
+                                      "triangles",
+                                      "quads",
+                                      "tetrahedra",
+                                      "hexahedra",
+                                      "pyramids",
+                                      "prisms",
+                                      "quadraticTetrahedra",
+                                      "quadraticHexahedra",
+                                      "triquadraticHexahedra"})
     if (offered(*elements.info, list))
       element.attributes.push_back({std::string(list), text(link_to(elements), '.', list), offset});
   auto made = items.makeItem(*model.place, element);

@@ -26,6 +26,7 @@ class ImpliedValues {
       const LinkTarget target = follow_link(item, src.value);
       if (!target.item || !target.item->info)
         throw Error("", text(shown(src.value), " leads to no loader; link to a component"));
+      checkOrder(item, *target.item);
       for (auto const& field : item.info->fields) {
         if (!field.isInput || given.count(field.name)) continue;
         bool offered = false;
@@ -48,6 +49,24 @@ class ImpliedValues {
       item.failed = true;
       messages_.addError(item.element->place(src), message);
     }
+  }
+
+  /// Throws Error where elements of second order would be left out by what takes those of first order.
+  void checkOrder(SceneItem const& item, SceneItem& from) {
+    auto takes = [&](std::string_view list) {
+      FieldInfo const* const field = item.info->field(list);
+      return field && field->isInput;
+    };
+    if (!takes("tetrahedra") && !takes("hexahedra")) return;
+    for (const std::string_view list : {"quadraticTetrahedra", "quadraticHexahedra", "triquadraticHexahedra"})
+      if (!takes(list) && offered(*from.info, list) &&
+          !values_.valueOf({&from, nullptr, std::string(list)}).empty())
+        throw Error("",
+                    text(link_to(from),
+                         " has ",
+                         list,
+                         ", elements of second order, and this takes those of first order only; give it a "
+                         "mesh of first order (in Gmsh, Mesh.ElementOrder = 1)"));
   }
 
   /// Whether a link leads to what an engine makes that goes on in each step, from a component that has all
