@@ -95,6 +95,7 @@
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mapping/tubular_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
+#include <sinew/mass/adaptive_beam_force_field_and_mass.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/hexahedron_composite_fem_mass.hpp>
