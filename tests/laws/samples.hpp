@@ -3,6 +3,8 @@
 
 // What components need beside random values in the ranges of their fields.
 // All files of samples:
+#include "samples/adaptive_beam_force_field_and_mass.hpp"
+#include "samples/adaptive_beam_mapping.hpp"
 #include "samples/affine_movement.hpp"
 #include "samples/angular_spring.hpp"
 #include "samples/attach.hpp"
