@@ -168,7 +168,9 @@ struct ForceSuite {
   void run() {
     sample::for_each_variant<C>(random, [&](C const& sampled) {
       INFO(component_name<C>());
-      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, body.topology(), {}, bodyOf<C>()});
+      C own = sampled;
+      sample::rest_at(own, rest, body);
+      SubjectOf<C> subject(own, InitContext<D>{"sample", rest, body.topology(), {}, bodyOf<C>()});
       check(subject);
     });
   }

@@ -183,7 +183,7 @@ TEST_CASE("points along a rod, and wires, that cannot be are refused") {
   auto init = [&](Mapping const& m, Frames const& frames) { return [&, m] { ready(m, frames, out); }; };
   says(init({}, shape.frames), {"child", "AdaptiveBeamMapping<Rigid3d, Vec3d>", "no beams", "interpolation"});
   const Frames two{frame({0, 0, 0}), frame({1, 0, 0})};
-  says(init({.interpolation = shape.beams}, two), {"3 beams", "parent has 1 edges"});
+  says(init({.interpolation = shape.beams}, two), {"child", "3 beams for 1 edges"});
   says(init({.interpolation = shape.beams, .points = {{2.1, 0, 0}}}, shape.frames),
        {"point 0 is at 2.1 m along a rod of 2 m"});
   says(init({.interpolation = shape.beams, .points = {{-1, 0, 0}}, .useCurvAbs = false}, shape.frames),

@@ -10,7 +10,7 @@
 
 namespace sinew {
 
-/// The beams of a rod along edges between frames, for an AdaptiveBeamForceFieldAndMass and an
+/// The beams of a rod along edges between frames, for an AdaptiveBeamForceField, an AdaptiveBeamMass and an
 /// AdaptiveBeamMapping: of one section and material, or one for each. The first axes of the frames are along
 /// the rod. A beam is as long at rest as the cubic between its frames, and straight, or, without `straight`,
 /// as these frames stand to each other at rest.

@@ -8,7 +8,7 @@
 
 namespace sinew {
 
-/// The beams of a wire: those of a WireRestShape, which an AdaptiveBeamForceFieldAndMass, an
+/// The beams of a wire: those of a WireRestShape, which an AdaptiveBeamForceField, an AdaptiveBeamMass, an
 /// AdaptiveBeamMapping and an InterventionalRadiologyController take from here.
 template <class D>
 struct WireBeamInterpolation {
@@ -22,7 +22,8 @@ struct WireBeamInterpolation {
 
   static constexpr auto fields() {
     return field_list(
-        field("WireRestShape", &WireBeamInterpolation::wireRestShape, "", "the beams of the shape at rest"));
+        field("wireRestShape", &WireBeamInterpolation::wireRestShape, "", "the beams of the shape at rest")
+            .also("WireRestShape"));
   }
 
   // after update

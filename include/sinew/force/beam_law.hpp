@@ -5,6 +5,7 @@
 #include <sinew/force/corotation.hpp>
 #include <sinew/force/elasticity.hpp>
 #include <sinew/topology/beam_section.hpp>
+#include <sinew/topology/rod_beams.hpp>
 
 #include <limits>
 
@@ -149,5 +150,15 @@ struct BeamFEM {
     return f;
   }
 };
+
+/// Rest data of a beam of a rod.
+template <class D>
+typename BeamFEM<D>::Rest rest_of_rod(RodBeam const& beam, bool shear) {
+  using Real = typename D::Real;
+  typename D::Coord x[2]{D::zero(), D::zero()};
+  x[1].center = beam.chord.template cast<Real>();
+  x[1].orientation = beam.turn().template cast<Real>();
+  return BeamFEM<D>::restOf(x, beam.section(), beam.youngModulus, beam.poissonRatio, shear);
+}
 
 }  // namespace sinew

@@ -3,7 +3,6 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/follow.hpp>
-#include <sinew/core/lists.hpp>
 #include <sinew/mapping/beam_carriers.hpp>
 #include <sinew/topology/rod_beams.hpp>
 
@@ -64,23 +63,8 @@ struct AdaptiveBeamMapping {
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<AdaptiveBeamMapping>());
-    detail::check_indices(where, "edge", parent.topology.edges, parent.rest.size());
-    std::vector<Edge> edges(parent.topology.edges.begin(), parent.topology.edges.end());
-    if (edges.empty())
-      for (int i = 0; i + 1 < int(parent.rest.size()); ++i) edges.push_back({i, i + 1});
-    if (interpolation.empty())
-      throw Error(where,
-                  "there are no beams; give interpolation those of the BeamInterpolation or "
-                  "WireBeamInterpolation of the rod");
-    if (edges.size() != interpolation.size())
-      throw Error(where,
-                  text("interpolation has ",
-                       interpolation.size(),
-                       " beams, but ",
-                       parent.where,
-                       " has ",
-                       edges.size(),
-                       " edges; link it to the interpolation of that rod"));
+    const std::vector<Edge> edges =
+        rod_edges(where, parent.topology.edges, parent.rest.size(), interpolation);
     const std::vector<double> ends = rod_abscissas(interpolation);
     std::vector<Eigen::Vector3d> along = points;
     if (nbPointsPerBeam > 0) {

@@ -52,18 +52,15 @@ struct MechanicalForces {
   void addProducts(DerivId r, DerivId dx, MechanicalParams const& p) const {
     forEachWithGhosts(
         [&](auto& c, auto const& scope, Elements elements) {
-          using C = std::decay_t<decltype(c)>;
-          constexpr bool isMass = HasRole<C, role::Mass>;
-          if constexpr (isMass)
-            if (p.m != 0)
-              with_states_of(c, scope, [&](auto& s) { c.addMDx(s[r], s[vec_id::position], s[dx], p.m); });
-          if ((isMass && !is_elastic_mass<C>) || (p.k == 0 && p.b == 0)) return;
-          if constexpr (!isMass || is_elastic_mass<C>) {
-            auto&& own = partOf(p, elements);
-            with_states_of(c, scope, [&](auto&... s) {
+          constexpr bool isMass = HasRole<std::decay_t<decltype(c)>, role::Mass>;
+          if (isMass ? p.m == 0 : p.k == 0 && p.b == 0) return;
+          auto&& own = partOf(p, elements);
+          with_states_of(c, scope, [&](auto&... s) {
+            if constexpr (isMass)
+              c.addMDx(s[r]..., s[vec_id::position]..., s[dx]..., p.m);
+            else
               inShares(c, own, [&](MechanicalParams const& part) { add_dforce(c, part, s[r]..., s[dx]...); });
-            });
-          }
+          });
         },
         dx);
   }
@@ -114,11 +111,10 @@ struct MechanicalForces {
   /// Of the force fields and interactions, without gravity [J].
   double potentialEnergy() const {
     double sum = 0;
-    forEach([&](auto& c, auto const& scope) {
-      using C = std::decay_t<decltype(c)>;
-      if constexpr (!HasRole<C, role::Mass> || is_elastic_mass<C>)
-        with_states_of(c, scope, [&](auto&... s) { sum += potential_energy(c, s[vec_id::position]...); });
-    });
+    traverse(root, on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& scope) {
+               with_states_of(
+                   c, scope, [&](auto&... s) { sum += potential_energy(c, s[vec_id::position]...); });
+             }));
     return sum;
   }
 

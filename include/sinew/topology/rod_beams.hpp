@@ -3,10 +3,12 @@
 
 #include <sinew/core/compiled.hpp>
 #include <sinew/core/fields.hpp>
+#include <sinew/core/mesh.hpp>
 #include <sinew/topology/beam_section.hpp>
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -86,13 +88,19 @@ std::vector<RodBeam> rod_beams(std::string_view where, std::vector<RodSection> c
 /// How far the frames of beams that follow one another are along the wire: 0, l_0, l_0 + l_1...
 std::vector<double> rod_abscissas(std::vector<RodBeam> const& beams);
 
-/// Throws Error for a beam that is not in its ranges, or whose ends are at one place at rest.
+/// Throws Error for a beam whose ends are at one place at rest.
 void check_beams(std::string_view where, std::vector<RodBeam> const& beams);
+
+/// The edges of the beams of a rod over so many frames: those of the topology, or where it has none, from
+/// each frame to the next. Throws Error where there are no beams, or another number, or edges lead nowhere.
+std::vector<Edge> rod_edges(std::string_view where, std::span<Edge const> edges, std::size_t frames,
+                            std::vector<RodBeam> const& beams);
 
 }  // namespace sinew
 
 #if SINEW_DEFINES
 #include <sinew/core/error.hpp>
+#include <sinew/core/lists.hpp>
 #include <sinew/core/memory_limit.hpp>
 
 #include <Eigen/Geometry>
@@ -155,6 +163,29 @@ SINEW_ONCE void check_beams(std::string_view where, std::vector<RodBeam> const& 
                        i,
                        " are at one place at rest, or have no rotation; correct its chord and rotation"));
   }
+}
+
+SINEW_ONCE std::vector<Edge> rod_edges(std::string_view where, std::span<Edge const> edges,
+                                       std::size_t frames, std::vector<RodBeam> const& beams) {
+  if (beams.empty())
+    throw Error(where,
+                "there are no beams; give interpolation those of a BeamInterpolation or a "
+                "WireBeamInterpolation");
+  std::vector<Edge> all(edges.begin(), edges.end());
+  detail::check_indices(where, "edge", all, frames);
+  if (all.empty())
+    for (int i = 0; i + 1 < int(frames); ++i) all.push_back({i, i + 1});
+  if (all.size() != beams.size())
+    throw Error(where,
+                text("interpolation has ",
+                     beams.size(),
+                     " beams for ",
+                     all.size(),
+                     " edges; give the node ",
+                     beams.size() + 1,
+                     " frames in a row, or an edge for each beam"));
+  check_beams(where, beams);
+  return all;
 }
 
 }  // namespace sinew

@@ -70,16 +70,6 @@ template <class C>
 concept AddsMassToMatrix =
     HasDataTypes<C> && requires(C c, MechanicalParams const p, typename C::DataTypes::VecCoord const x,
                                 AnySink const sink) { c.addToMatrix(p, x, sink); };
-/// A mass that is also elastic, as a rod may be: addForce adds its forces, too, addDForce(p, df, dx) the product
-/// with p.k K, addToMatrix p.k K, and potentialEnergy(x) says its energy [J].
-template <class C>
-inline constexpr bool is_elastic_mass =
-    HasRole<C, role::Mass> &&
-    requires(C c, MechanicalParams const p, typename C::DataTypes::VecDeriv df,
-             typename C::DataTypes::VecCoord const x, typename C::DataTypes::VecDeriv const dx) {
-      c.addDForce(p, df, dx);
-      { c.potentialEnergy(x) } -> std::convertible_to<double>;
-    };
 
 template <>
 struct Promise<role::Mass> : NoPromise {

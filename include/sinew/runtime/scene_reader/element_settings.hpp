@@ -23,6 +23,7 @@ class ElementSettings {
     setDensities(top);
     setComposites(top);
     forgetInterpolation(top);
+    setRods(top);
   }
 
  private:
@@ -143,6 +144,37 @@ class ElementSettings {
         std::erase_if(item->element->attributes,
                       [](XmlAttribute const& a) { return a.name == "completeInterpolation"; });
     for (auto& child : place.children) forgetInterpolation(*child);
+  }
+
+  // what is on a rod has the beams of the interpolation in its node, or, a mapping, above it; a controller
+  // names it without @
+  void setRods(ScenePlace& place) {
+    for (auto& item : place.items) {
+      const std::string_view name = item->candidates[0]->name;
+      const bool controls = name == "InterventionalRadiologyController";
+      if (!controls && name != dialect::rodForce && name != dialect::rodMass && name != "AdaptiveBeamMapping")
+        continue;
+      const std::string field = controls ? "instruments" : "interpolation";
+      if (auto const* given = item->element->attribute(field)) {
+        if (!controls || is_link(given->value) || Words(given->value).end()) continue;
+        Words words(given->value);
+        const std::string first(words.next());
+        if (!words.end())
+          messages_.addError(*item->element,
+                             "instruments: wires inside of each other are not simulated; name one");
+        item->element->set(field, "@" + first);
+        continue;
+      }
+      SceneItem const* found = nullptr;
+      for (ScenePlace* at = &place; at && !found; at = at->parent) {
+        for (auto const& other : at->items)
+          if (!found && has_name("BeamInterpolation WireBeamInterpolation", other->candidates[0]->name))
+            found = other.get();
+        if (!at->state.empty() && (at != &place || name != "AdaptiveBeamMapping")) break;
+      }
+      if (found) item->element->set(field, link_to(*found));
+    }
+    for (auto& child : place.children) setRods(*child);
   }
 
   // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.

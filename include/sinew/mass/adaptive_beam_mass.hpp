@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/element_driver.hpp>
+#include <sinew/core/assembly.hpp>
 #include <sinew/core/lists.hpp>
 #include <sinew/force/beam_law.hpp>
 #include <sinew/mass/beam_inertia.hpp>
@@ -12,21 +12,17 @@
 
 namespace sinew {
 
-/// Elastic rods with their mass: the corotational beams of BeamFEMForceField along the edges of the topology,
-/// or where it has none from frame to frame, each with the section, the material and the shape at rest that a
-/// BeamInterpolation or a WireBeamInterpolation gives it. Bent at rest, a wire curls to that shape where
-/// nothing holds it. The first axes of the frames are along the rod.
+/// Mass of rods, of the beams that a BeamInterpolation or a WireBeamInterpolation gives: the consistent one
+/// (Przemieniecki 1968; Friedman & Kosmatka 1993) with rotary inertia, in the axes that a beam has now; the
+/// weight acts along its length. Frequencies of bending come out with errors of order (h / wavelength)^4.
 ///
-/// The mass is the consistent one of beams (Przemieniecki 1968), with rotary inertia, in the axes that the
-/// beam has now; the weight acts along its length. Frequencies of bending come out with errors of order (h /
-/// wavelength)^4. M^-1 f, which explicit solvers ask for, is taken with half of the mass and of the rotary
-/// inertia of a beam at each of its frames; EulerExplicitSolver solves M a = f where a linear solver stands
-/// by. (SOFA refuses.) What the change of the axes adds to M a beyond the gyroscopic torques of the sections
-/// is left out, as in SOFA; it is of order (bending rate) (rate of rotation).
+/// M^-1 f, which explicit solvers ask for, is taken with half of the mass and of the rotary inertia of a beam
+/// at each of its frames; EulerExplicitSolver solves M a = f where a linear solver stands by. (SOFA refuses.)
+/// What the change of the axes adds to M a beyond the gyroscopic torques of the sections is left out, as in
+/// SOFA; it is of order (bending rate) (rate of rotation).
 template <class D>
-struct AdaptiveBeamForceFieldAndMass {
-  static_assert(D::rigid && D::spatial == 3,
-                "Sinew: AdaptiveBeamForceFieldAndMass is for frames in space (Rigid3d).");
+struct AdaptiveBeamMass {
+  static_assert(D::rigid && D::spatial == 3, "Sinew: AdaptiveBeamMass is for frames in space (Rigid3d).");
   using Role = role::Mass;
   using DataTypes = D;
   using Real = typename D::Real;
@@ -34,14 +30,14 @@ struct AdaptiveBeamForceFieldAndMass {
   using Deriv = typename D::Deriv;
   using VecCoord = typename D::VecCoord;
   using VecDeriv = typename D::VecDeriv;
-  static constexpr std::string_view className = "AdaptiveBeamForceFieldAndMass";
+  static constexpr std::string_view className = "AdaptiveBeamMass";
 
   std::vector<RodBeam> interpolation{};
   std::vector<double> massDensity{1};
-  bool computeMass = true, shearStressComputation = true;
+  bool shearStressComputation = true;
 
   static constexpr auto fields() {
-    using F = AdaptiveBeamForceFieldAndMass;
+    using F = AdaptiveBeamMass;
     return field_list(
         field("interpolation",
               &F::interpolation,
@@ -56,7 +52,6 @@ struct AdaptiveBeamForceFieldAndMass {
               "of beams whose interpolation gives none: one for all, or one for each",
               range::positive)
             .oneEach(Of::edges),
-        field("computeMass", &F::computeMass, "", "the beams have mass; a rod without is not simulated"),
         field("shearStressComputation",
               &F::shearStressComputation,
               "",
@@ -65,47 +60,22 @@ struct AdaptiveBeamForceFieldAndMass {
   }
 
   using Law = BeamFEM<D>;
-  using Driver = ElementDriver<BeamFEM, D>;
   struct Element {
     Edge ends;
     typename Law::Rest rest;
     BeamInertia<Real> inertia;
   };
-  Driver driver{};
   std::vector<Element> elements{};
   LumpedMass<D> lumped{};
 
   bool exactInverse() const { return false; }
 
   void init(InitContext<D> const& context) {
-    const std::string where = text(context.where, ": ", component_name<AdaptiveBeamForceFieldAndMass>());
+    const std::string where = text(context.where, ": ", component_name<AdaptiveBeamMass>());
     const std::size_t frames = context.rest.size();
-    if (interpolation.empty())
-      throw Error(where,
-                  "there are no beams; give interpolation those of a BeamInterpolation or a "
-                  "WireBeamInterpolation");
-    if (!computeMass)
-      throw Error(
-          where,
-          "computeMass is off, but a rod is one with its mass here; take BeamFEMForceField beside another "
-          "mass");
-    std::vector<Edge> edges(context.topology.edges.begin(), context.topology.edges.end());
-    detail::check_indices(where, "edge", edges, frames);
-    if (edges.empty())
-      for (int i = 0; i + 1 < int(frames); ++i) edges.push_back({i, i + 1});
-    if (edges.size() != interpolation.size())
-      throw Error(where,
-                  text("interpolation has ",
-                       interpolation.size(),
-                       " beams for ",
-                       edges.size(),
-                       " edges; give the node ",
-                       interpolation.size() + 1,
-                       " frames in a row, or an edge for each beam"));
+    const std::vector<Edge> edges = rod_edges(where, context.topology.edges, frames, interpolation);
     check_one_or_each(where, "massDensity", massDensity.size(), edges.size(), "beams");
-    check_beams(where, interpolation);
 
-    std::vector<typename Driver::Rest> rest;
     std::vector<double> masses(frames, 0.0);
     std::vector<Eigen::Matrix3d> inertias(frames, Eigen::Matrix3d::Zero());
     elements.clear();
@@ -113,12 +83,8 @@ struct AdaptiveBeamForceFieldAndMass {
       RodBeam const& beam = interpolation[b];
       const double density = beam.massDensity > 0 ? beam.massDensity : one_or_each(massDensity, b);
       const BeamSection section = beam.section();
-      Coord x[2]{D::zero(), D::zero()};
-      x[1].center = beam.chord.template cast<Real>();
-      x[1].orientation = beam.turn().template cast<Real>();
-      rest.push_back(Law::restOf(x, section, beam.youngModulus, beam.poissonRatio, shearStressComputation));
       elements.push_back({edges[b],
-                          rest.back(),
+                          rest_of_rod<D>(beam, shearStressComputation),
                           BeamInertia<Real>::of(section,
                                                 beam.youngModulus,
                                                 beam.poissonRatio,
@@ -129,7 +95,7 @@ struct AdaptiveBeamForceFieldAndMass {
       const double half = density * beam.length / 2;
       const Eigen::Vector3d inertia(section.aboutY + section.aboutZ, section.aboutY, section.aboutZ);
       for (std::size_t k = 0; k < 2; ++k) {
-        Real const(&q)[4] = rest.back().toAxes[k];
+        Real const(&q)[4] = elements.back().rest.toAxes[k];
         const Eigen::Matrix3d axes =
             Eigen::Quaterniond(double(q[0]), double(q[1]), double(q[2]), double(q[3])).toRotationMatrix();
         const std::size_t i = std::size_t(edges[b][k]);
@@ -137,7 +103,6 @@ struct AdaptiveBeamForceFieldAndMass {
         inertias[i] += half * axes * inertia.asDiagonal() * axes.transpose();
       }
     }
-    driver.init(edges, rest);
     std::vector<typename D::MassType> ofFrames;
     for (std::size_t i = 0; i < frames; ++i) {
       if (!(masses[i] > 0))
@@ -151,9 +116,8 @@ struct AdaptiveBeamForceFieldAndMass {
     lumped.init(where, ofFrames);
   }
 
-  /// f += elastic forces, M g, and the gyroscopic torques of the sections.
-  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) {
-    driver.addForce(typename Driver::Law{}, f, x, v);
+  /// f += M g and the gyroscopic torques of the sections.
+  void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const& v) const {
     MechanicalParams still = p;
     still.gravity.setZero();
     lumped.addForce(still, f, x, v);
@@ -166,12 +130,6 @@ struct AdaptiveBeamForceFieldAndMass {
         for (std::size_t j = 0; j < 2; ++j) f[at(e, i)] += multiply(e, axes, i, j, g);
     }
   }
-  /// df += k K dx at the last addForce
-  void addDForce(MechanicalParams const& p, VecDeriv& df, VecDeriv const& dx) const {
-    driver.addDForce(typename Driver::Law{}, df, dx, Real(p.k), Real(p.b));
-  }
-  double potentialEnergy(VecCoord const& x) const { return driver.energy(typename Driver::Law{}, x); }
-
   void addMDx(VecDeriv& f, VecCoord const& x, VecDeriv const& dx, double factor) const {
     for (Element const& e : elements) {
       const Mat<Real, 3> axes = axesOf(e, x);
@@ -191,10 +149,8 @@ struct AdaptiveBeamForceFieldAndMass {
     }
     return sum;
   }
-  /// p.m M + p.k K
   template <class Sink>
-  void addToMatrix(MechanicalParams const& p, VecCoord const& x, Sink const& sink) {
-    driver.addToMatrix(typename Driver::Law{}, sink, Real(p.k), Real(p.b));
+  void addToMatrix(MechanicalParams const& p, VecCoord const& x, Sink const& sink) const {
     if constexpr (Sink::phase != AssemblyPhase::bind)
       for (Element const& e : elements) {
         const Mat<Real, 3> axes = axesOf(e, x);

@@ -3,8 +3,9 @@
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/context/gravity.hpp>
+#include <sinew/force/adaptive_beam_force_field.hpp>
 #include <sinew/force/constant_force.hpp>
-#include <sinew/mass/adaptive_beam_force_field_and_mass.hpp>
+#include <sinew/mass/adaptive_beam_mass.hpp>
 #include <sinew/scene/simulation.hpp>
 #include <sinew/solver/euler_implicit.hpp>
 #include <sinew/solver/sparse_ldl_solver.hpp>
@@ -13,7 +14,7 @@
 #include <Eigen/Eigenvalues>
 #include <numbers>
 
-namespace test_adaptive_beam_force_field_and_mass {
+namespace test_adaptive_beam_force_field {
 
 using namespace sinew;
 using Eigen::MatrixXd;
@@ -24,7 +25,8 @@ using one::product;
 using one::ready;
 using one::refuses;
 using std::numbers::pi;
-using Rod = AdaptiveBeamForceFieldAndMass<Rigid3d>;
+using Rod = AdaptiveBeamForceField<Rigid3d>;
+using Mass = AdaptiveBeamMass<Rigid3d>;
 using VecCoord = Rigid3d::VecCoord;
 using VecDeriv = Rigid3d::VecDeriv;
 using Deriv = Rigid3d::Deriv;
@@ -63,6 +65,9 @@ std::vector<RodBeam> beams_of(RodSection section, int n) {
 Rod rod(std::vector<RodBeam> const& beams, bool shear = false) {
   return ready(Rod{.interpolation = beams, .shearStressComputation = shear}, at_rest(beams));
 }
+Mass mass_of(std::vector<RodBeam> const& beams, bool shear = false) {
+  return ready(Mass{.interpolation = beams, .shearStressComputation = shear}, at_rest(beams));
+}
 VecDeriv wave(std::size_t n, double size, int number = 0) {
   VecDeriv dx(n);
   for (std::size_t i = 0; i < n; ++i)
@@ -90,7 +95,7 @@ MatrixXd stiffness(Rod& c, VecCoord const& x) {
   force(c, x);
   return matrix(x.size(), [&](VecDeriv const& dx) { return product(c, dx, -1, 0); });
 }
-MatrixXd mass(Rod const& c, VecCoord const& x) {
+MatrixXd mass(Mass const& c, VecCoord const& x) {
   return matrix(x.size(), [&](VecDeriv const& dx) {
     VecDeriv f(dx.size(), Deriv::Zero());
     c.addMDx(f, x, dx, 1);
@@ -105,6 +110,7 @@ auto scene(std::vector<RodBeam> const& beams, VecCoord const& x, Deriv const& ti
                                  SparseLDLSolver<CompressedRowSparseMatrixd>{},
                                  MechanicalObject<Rigid3d>{.position = x},
                                  Rod{.interpolation = beams},
+                                 Mass{.interpolation = beams},
                                  ConstantForceField<Rigid3d>{.indices = {int(beams.size())}, .forces = {tip}},
                                  FixedConstraint<Rigid3d>{.indices = {0}})};
 }
@@ -150,15 +156,15 @@ TEST_CASE("a rod is stiff as its section is, and a helix at rest has no forces")
   const auto straight = beams_of(wire, 4);
   Rod c = rod(straight);
   VecCoord x = at_rest(straight);
-  CHECK(c.potentialEnergy(x) == 0);
+  CHECK(potential_energy(c, x) == 0);
   for (std::size_t i = 0; i < x.size(); ++i) x[i].center[0] *= 1.001;
-  CHECK(c.potentialEnergy(x) == Approx(2e9 * round.area * 1e-6 / 2));
+  CHECK(potential_energy(c, x) == Approx(2e9 * round.area * 1e-6 / 2));
   RodSection curl = wire;
   curl.spireDiameter = 0.3, curl.spireHeight = 0.05;
   Rod curled = rod(beams_of(curl, 8));
   const auto f = force(curled, at_rest(curled.interpolation));
   for (auto const& one : f) CHECK(one.norm() < 1e-9);
-  CHECK(curled.potentialEnergy(at_rest(curled.interpolation)) < 1e-20);
+  CHECK(potential_energy(curled, at_rest(curled.interpolation)) < 1e-20);
 }
 
 TEST_CASE(
@@ -185,7 +191,7 @@ TEST_CASE(
       double work = 0;
       for (std::size_t i = 0; i < x.size(); ++i) work += f[i].dot(dx[i]);
       // energies of order E A / 100, of which 1e-16 is lost over 2e-6, and truncation of the order h^2
-      CHECK(work == Approx((c.potentialEnergy(minus) - c.potentialEnergy(plus)) / (2 * h)).epsilon(1e-6));
+      CHECK(work == Approx((potential_energy(c, minus) - potential_energy(c, plus)) / (2 * h)).epsilon(1e-6));
       const auto ahead = force(c, plus), back = force(c, minus);
       force(c, x);
       const auto df = product(c, dx, 1, 0);
@@ -201,7 +207,7 @@ TEST_CASE(
 
 TEST_CASE("a rod has the mass, the inertia and the weight of a bar") {
   const auto beams = beams_of(wire, 4);
-  const Rod c = rod(beams);
+  const Mass c = mass_of(beams);
   const VecCoord x = at_rest(beams);
   const double m = line;
   auto rigid = [&](Vector3d const& u, Vector3d const& w) {
@@ -219,12 +225,11 @@ TEST_CASE("a rod has the mass, the inertia and the weight of a bar") {
   for (auto& one : turned) one = frame(q * one.center, Quaterniond(q * one.orientation));
   auto v = rigid({0, 0, 0}, {0, 2, 0});
   for (auto& one : v) one << q * one.head<3>(), q * one.tail<3>();
-  CHECK(rod(beams, true).kineticEnergy(turned, v) == Approx(2 * (m / 3 + 1000 * round.aboutY)));
-  Rod heavy = c;
+  CHECK(mass_of(beams, true).kineticEnergy(turned, v) == Approx(2 * (m / 3 + 1000 * round.aboutY)));
   VecDeriv f(x.size(), Deriv::Zero());
   MechanicalParams p;
   p.gravity = {0, 0, -10};
-  heavy.addForce(p, f, x, VecDeriv(x.size(), Deriv::Zero()));
+  c.addForce(p, f, x, VecDeriv(x.size(), Deriv::Zero()));
   Vector3d sum(0, 0, 0), turning(0, 0, 0);
   for (std::size_t i = 0; i < x.size(); ++i)
     sum += f[i].head<3>(), turning += x[i].center.cross(f[i].head<3>()) + f[i].tail<3>();
@@ -243,7 +248,7 @@ TEST_CASE("a clamped rod swings at the frequencies of the closed form, with erro
     Rod c = rod(beams);
     const VecCoord x = at_rest(beams);
     const Eigen::GeneralizedSelfAdjointEigenSolver<MatrixXd> solver(
-        stiffness(c, x), mass(c, x), Eigen::EigenvaluesOnly);
+        stiffness(c, x), mass(mass_of(beams), x), Eigen::EigenvaluesOnly);
     std::vector<double> w;
     // each twice, in both planes
     for (int k = 0; k < 3; ++k) w.push_back(std::sqrt(solver.eigenvalues()[2 * k]));
@@ -327,7 +332,8 @@ TEST_CASE("a rod that is free keeps its momentum, and spins as a rigid bar does"
   auto sim = Simulation{node<"root">(EulerImplicitSolver{},
                                      SparseLDLSolver<CompressedRowSparseMatrixd>{},
                                      MechanicalObject<Rigid3d>{.position = at_rest(beams)},
-                                     Rod{.interpolation = beams})};
+                                     Rod{.interpolation = beams},
+                                     Mass{.interpolation = beams})};
   sim.init();
   auto& s = sim.root().state();
   const Vector3d w(0, 0, 0.2), middle(0.5, 0, 0), drift(0.1, 0.2, 0.3);
@@ -348,18 +354,16 @@ TEST_CASE("a rod that is free keeps its momentum, and spins as a rigid bar does"
 TEST_CASE("rods that cannot be are refused") {
   const auto beams = beams_of(wire, 2);
   const VecCoord x = at_rest(beams);
-  refuses(
-      Rod{}, x, {}, {"body", "AdaptiveBeamForceFieldAndMass<Rigid3d>", "no beams", "WireBeamInterpolation"});
+  refuses(Rod{}, x, {}, {"body", "AdaptiveBeamForceField<Rigid3d>", "no beams", "WireBeamInterpolation"});
   refuses(Rod{.interpolation = beams}, at_rest(beams_of(wire, 3)), {}, {"2 beams for 3 edges", "3 frames"});
-  refuses(Rod{.interpolation = beams, .computeMass = false}, x, {}, {"computeMass", "BeamFEMForceField"});
-  refuses(Rod{.interpolation = beams, .massDensity = {1, 2, 3}}, x, {}, {"massDensity has 3"});
-  refuses(Rod{.interpolation = beams, .massDensity = {-1}}, x, {}, {"massDensity[0] is -1"});
+  refuses(Mass{.interpolation = beams, .massDensity = {1, 2, 3}}, x, {}, {"massDensity has 3"});
+  refuses(Mass{.interpolation = beams, .massDensity = {-1}}, x, {}, {"massDensity[0] is -1"});
   TopologyView wrong;
   const std::vector<Edge> edges{{0, 1}, {1, 7}}, loose{{0, 1}, {0, 1}};
   wrong.edges = edges;
   refuses(Rod{.interpolation = beams}, x, wrong, {"edge 1 refers to point 7"});
   wrong.edges = loose;
-  refuses(Rod{.interpolation = beams}, x, wrong, {"frame 2 is the end of no beam"});
+  refuses(Mass{.interpolation = beams}, x, wrong, {"frame 2 is the end of no beam"});
   auto broken = beams;
   broken[1].youngModulus = one::notANumber;
   refuses(Rod{.interpolation = broken}, x, {}, {"interpolation[1].youngModulus is nan"});
@@ -373,4 +377,4 @@ TEST_CASE("rods that cannot be are refused") {
             {"turns at rest", "nbBeams"});
 }
 
-}  // namespace test_adaptive_beam_force_field_and_mass
+}  // namespace test_adaptive_beam_force_field
