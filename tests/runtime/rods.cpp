@@ -47,8 +47,10 @@ ReadScene<Mine> read(std::string const& components) {
 }
 std::string wrong(std::string const& components) {
   try {
-    read(components);
-  } catch (SceneError const& error) {
+    auto scene = read(components);
+    Simulation sim{scene.root};
+    sim.init();
+  } catch (std::exception const& error) {
     return error.what();
   }
   return {};

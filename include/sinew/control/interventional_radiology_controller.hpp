@@ -15,15 +15,16 @@ namespace sinew {
 /// straight sheath along the x axis of startingPos, without play or friction: frames in there are held, frame
 /// i at
 ///   c + (s_i - L + xtip) R e_x,   R = (orientation of startingPos) (rotation by rotationInstrument about x)
-/// where s_i is how far along the wire, of the length L, it is, c is the place of startingPos, and xtip how
-/// much of the wire is out. They move with it as a projective constraint has it; a frame that comes out is
-/// free, and one that is drawn back is held again, from the step on in which it passes the point. The beam
-/// across the point bends as if it were clamped at its frame behind it: the sheath ends within the length of
-/// one beam.
+/// where s_i is how far along the wire, of the length L, it is, in chords of its beams at rest, which are
+/// what keeps its length, c is the place of startingPos, and xtip how much of the wire is out. They move with
+/// it as a projective constraint has it; a frame that comes out is free, and one that is drawn back is held
+/// again, from the step on in which it passes the point. The beam across the point bends as if it were
+/// clamped at its frame behind it: the sheath ends within the length of one beam.
 ///
 /// Beams keep their lengths at rest, so that the wire keeps its own. In the first step frames are put into
-/// the sheath, and those that are out already along the shape at rest from there. (In SOFA all frames that
-/// are in are at startingPos, and the first beam grows longer at rest while the wire is pushed.)
+/// the sheath, and those that are out already along the shape at rest from there, unless they stand in the
+/// sheath and apart from each other beyond it. (In SOFA all frames that are in are at startingPos, and the
+/// first beam grows longer at rest while the wire is pushed.)
 template <class D>
 struct InterventionalRadiologyController {
   static_assert(D::rigid && D::spatial == 3,
@@ -107,7 +108,8 @@ struct InterventionalRadiologyController {
                        ", as RegularGridTopology does with nx=\"",
                        instruments.size() + 1,
                        "\""));
-    abscissas = rod_abscissas(instruments);
+    abscissas.assign(1, 0.0);
+    for (RodBeam const& beam : instruments) abscissas.push_back(abscissas.back() + beam.chord.norm());
     if (!(xtip <= length()))
       throw Error(where, text("xtip is ", xtip, " m, but the wire is ", length(), " m long; lower it"));
     const double norm = double(startingPos.orientation.norm());
@@ -127,15 +129,8 @@ struct InterventionalRadiologyController {
 
   template <class State>
   bool beginStep(StepAhead const& ahead, State& state) {
-    if (!placed) {
-      place(state.position, to, toAngle);
-      for (std::size_t i = held; i < state.position.size(); ++i) {
-        auto const &last = state.position[i - 1], &beam = instruments[i - 1];
-        state.position[i].center = last.center + last.orientation * beam.chord.template cast<Real>();
-        state.position[i].orientation = last.orientation * beam.turn().template cast<Real>();
-      }
-      placed = true;
-    }
+    if (!placed) start(state.position);
+    placed = true;
     begin = ahead.begin, dt = ahead.dt;
     from = to, fromAngle = toAngle;
     to = xtip = std::clamp(xtip + speed * dt, 0.0, length());
@@ -176,10 +171,28 @@ struct InterventionalRadiologyController {
     const Quat<Real> turned =
         startingPos.orientation * Quat<Real>(Eigen::AngleAxis<Real>(Real(angle), Vec<Real, 3>::UnitX()));
     for (std::size_t i = 0; i < held; ++i) {
-      x[i].center =
-          startingPos.center +
-          startingPos.orientation * Vec<Real, 3>(Real(abscissas[i] - length() + out), Real(0), Real(0));
+      x[i].center = inSheath(i, out);
       x[i].orientation = turned;
+    }
+  }
+  Vec<Real, 3> inSheath(std::size_t i, double out) const {
+    return startingPos.center +
+           startingPos.orientation * Vec<Real, 3>(Real(abscissas[i] - length() + out), Real(0), Real(0));
+  }
+  // puts frames to where they may start, unless they stand so
+  void start(VecCoord& x) const {
+    bool stands = true;
+    for (std::size_t i = 0; i < held; ++i)
+      stands = stands && (x[i].center - inSheath(i, to)).norm() <= Real(1e-6 * length());
+    for (std::size_t i = held; i < x.size(); ++i)
+      stands = stands && (x[i].center - x[i - 1].center).norm() > Real(0.1 * instruments[i - 1].length);
+    if (stands) return;
+    place(x, to, toAngle);
+    for (std::size_t i = held; i < x.size(); ++i) {
+      Coord const& last = x[i - 1];
+      RodBeam const& beam = instruments[i - 1];
+      x[i].center = last.center + last.orientation * beam.chord.template cast<Real>();
+      x[i].orientation = last.orientation * beam.turn().template cast<Real>();
     }
   }
 };

@@ -11,6 +11,7 @@ namespace sample {
 template <class I, class O>
 void prepare(AdaptiveBeamMapping<I, O>& c, Random& random) {
   c.interpolation = rod_beams("sample", {{.length = 60, .nbBeams = 54, .spireDiameter = 4}});
+  c.nbPointsPerBeam = 0;
   c.points.clear();
   for (int i = 0; i < 40; ++i) c.points.emplace_back(random(0, 53.9), random(), random());
 }

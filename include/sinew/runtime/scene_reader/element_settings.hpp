@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/io/text_reader.hpp>
 #include <sinew/runtime/scene_reader/parts.hpp>
 
 #include <algorithm>
@@ -154,6 +155,7 @@ class ElementSettings {
       const bool controls = name == "InterventionalRadiologyController";
       if (!controls && name != dialect::rodForce && name != dialect::rodMass && name != "AdaptiveBeamMapping")
         continue;
+      if (controls) stretchGrid(place);
       const std::string field = controls ? "instruments" : "interpolation";
       if (auto const* given = item->element->attribute(field)) {
         if (!controls || is_link(given->value) || Words(given->value).end()) continue;
@@ -175,6 +177,18 @@ class ElementSettings {
       if (found) item->element->set(field, link_to(*found));
     }
     for (auto& child : place.children) setRods(*child);
+  }
+
+  // the frames of a wire have no places before its controller gives them some: SOFA's scenes have a grid for
+  // them that is a point
+  static void stretchGrid(ScenePlace& place) {
+    for (auto& item : place.items) {
+      XmlAttribute const *low = item->element->attribute("xmin"), *high = item->element->attribute("xmax");
+      double from = 0, to = 0;
+      if (item->candidates[0]->name == "RegularGridTopology" && low && high &&
+          io::parse_number(low->value, from) && io::parse_number(high->value, to) && from == to)
+        item->element->set("xmax", text(from + 1));
+    }
   }
 
   // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.
