@@ -8,6 +8,7 @@
 #include <sinew/control/interventional_radiology_controller.hpp>
 #include <sinew/core/registry.hpp>
 #include <sinew/engine/beam_interpolation.hpp>
+#include <sinew/engine/mesh_loader.hpp>
 #include <sinew/engine/rod_spire_section.hpp>
 #include <sinew/engine/rod_straight_section.hpp>
 #include <sinew/engine/wire_beam_interpolation.hpp>
@@ -121,7 +122,8 @@ TEST_CASE("a wire of a scene file is made of its sections and pushed by its cont
   CHECK(node.get<InterventionalRadiologyController<Rigid3d>>()->xtip == Approx(50));
   // startingPos turns x to z, and the wire comes out there
   auto const& x = node.get<MechanicalObject<Rigid3d>>()->position;
-  CHECK((x[0].center - Vector3d(0, 0, -50)).norm() < 1e-5);
+  const double length = node.get<InterventionalRadiologyController<Rigid3d>>()->length();
+  CHECK((x[0].center - Vector3d(0, 0, 50 - length)).norm() < 1e-5);
   CHECK(x.back().center[2] > 30);
 }
 
@@ -136,8 +138,10 @@ TEST_CASE("wires of scene files that cannot be are refused") {
   CHECK_THAT(wrong(wire("instruments='BeamInterpolation Other'")), Contains("wires inside of each other"));
   CHECK_THAT(wrong(wire("instruments='Other'")), Contains("Other") && Contains("leads nowhere"));
   CHECK_THAT(wrong(wire("xtip='-1'")), Contains("xtip is -1 m"));
-  CHECK_THAT(wrong("<WireRestShape name='shape' wireMaterials='@nothing @more'/>"), Contains("@nothing"));
-  CHECK_THAT(wrong("<RodSpireSection name='a' spireDiameter='-1'/><WireRestShape wireMaterials='@a'/>"),
+  CHECK_THAT(wrong("<WireRestShape template='Rigid3d' wireMaterials='@nothing @more'/>"),
+             Contains("@nothing"));
+  CHECK_THAT(wrong("<RodSpireSection name='a' spireDiameter='-1'/><WireRestShape template='Rigid3d' "
+                   "wireMaterials='@a'/>"),
              Contains("spireDiameter is -1 m"));
 }
 
