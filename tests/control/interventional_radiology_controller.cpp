@@ -88,12 +88,15 @@ TEST_CASE("a wire is pushed out of its sheath, keeps its length, and its tip cur
     }
     CHECK(controller.abscissas[std::min<std::size_t>(controller.held, 15)] - whole + 0.001 * i >
           (controller.held < 16 ? 0 : -1));
-    CHECK(length_of(x) == Approx(whole).epsilon(1e-5));
+    // chords that turn by the angle a in a step grow by a^2 / 2 of it, which a stiff beam takes back in the
+    // next: the tip springs out by 0.02 rad in a step
+    CHECK(length_of(x) == Approx(whole).epsilon(3e-4));
   }
   controller.speed = 0;
   for (int i = 0; i < 400; ++i) sim.animate(0.01);
   // with 0.1 m out nothing loads what is beyond the beam across the end of the sheath
   CHECK(controller.held == 7);
+  CHECK(length_of(x) == Approx(whole).epsilon(1e-8));
   for (std::size_t i = controller.held; i < 16; ++i) CHECK(strain(x, shape.beams, i) < 1e-6);
   // the tip, turned by half a turn, is on the other side
   const Vector3d before = start.orientation.conjugate() * (x.back().center - start.center);
@@ -141,7 +144,7 @@ TEST_CASE("wires that cannot be pushed are refused") {
   };
   refuses({}, x, {"InterventionalRadiologyController<Rigid3d>", "no wire", "WireBeamInterpolation"});
   refuses({.instruments = shape.beams}, Frames(3, Rigid3d::zero()), {"15 beams", "3 frames", "nx=\"16\""});
-  refuses({.instruments = shape.beams, .xtip = 1}, x, {"xtip is 1 m", "0.24 m long"});
+  refuses({.instruments = shape.beams, .xtip = 1}, x, {"xtip is 1 m", "0.2397"});
   refuses({.instruments = shape.beams, .xtip = -1}, x, {"xtip is -1 m"});
   refuses({.instruments = shape.beams, .speed = one::notANumber}, x, {"speed is nan"});
   Rigid3d::Coord start = Rigid3d::zero();

@@ -91,6 +91,8 @@ struct Tube {
 
 }  // namespace
 
+// The penalty of a point has the stiffness 1 * 1 / 0.5 mm = 2000 N/m; straightening the tip takes
+// EI / R = 2.5e-3 N m, which is 0.1 N at its ends: 0.05 mm.
 TEST_CASE("a wire is pushed through a bent tube and its points stay inside") {
   const auto shape = wire();
   const Tube tube;
@@ -109,22 +111,26 @@ TEST_CASE("a wire is pushed through a bent tube and its points stay inside") {
                    node<"points">(MechanicalObject<Vec3d>{},
                                   AdaptiveBeamMapping<Rigid3d, Vec3d>{.interpolation = shape.beams,
                                                                       .points = shape.collisionPoints},
-                                  PointCollisionModel<Vec3d>{.contactStiffness = 500})),
+                                  PointCollisionModel<Vec3d>{.contactStiffness = 1})),
       node<"tube">(
           MeshTopology{.triangles = tube.triangles},
           MechanicalObject<Vec3d>{.position = tube.points},
-          TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false, .contactStiffness = 500}))};
+          TriangleCollisionModel<Vec3d>{.moving = false, .simulated = false, .contactStiffness = 1}))};
   sim.init();
   auto const& points = sim.at<"wire/points">().state().position;
   auto const& frames = sim.at<"wire">().state().position;
   double deepest = 0;
+  Vector3d where(0, 0, 0);
+  int when = 0;
   for (int i = 0; i < 600; ++i) {
     sim.animate(0.005);
-    if (i % 10 == 9)
-      for (auto const& p : points)
-        if (p[0] > 0 || p[2] > 0.02) deepest = std::max(deepest, Tube::distance(p));
+    if (i % 10 != 9) continue;
+    for (auto const& p : points)
+      if (p[0] > 0 || p[2] > 0.02)
+        if (const double d = Tube::distance(p); d > deepest) deepest = d, where = p, when = i;
   }
-  INFO("deepest " << deepest << " tip " << points.back().transpose());
+  INFO("deepest " << deepest << " at " << where.transpose() << " in step " << when << " tip "
+                  << points.back().transpose());
   CHECK(deepest < Tube::radius);
   CHECK(length_of(frames) == Approx(0.2 + 0.04 * std::sin(0.2) / 0.2).epsilon(1e-3));
   // 0.15 m along a middle line that is 0.03 + 0.0785 m to the end of the bend: the tip is in the last part
