@@ -60,6 +60,7 @@
 #include <sinew/topology/cut_plan.hpp>
 #include <sinew/topology/cut_rules.hpp>
 #include <sinew/topology/removal_plan.hpp>
+#include <sinew/topology/rod_beams.hpp>
 #include <sinew/topology/round_grid.hpp>
 #include <sinew/topology/shape_clusters.hpp>
 #include <sinew/topology/shape_file.hpp>

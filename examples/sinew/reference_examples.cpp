@@ -50,6 +50,35 @@ constexpr std::string_view beams = R"(
   <BeamFEMForceField youngModulus="1e7" poissonRatio="0.45" radius="0.01"/>
   <FixedConstraint indices="0"/>
 </Node>)";
+constexpr std::string_view rod = R"(
+<Node name="rod" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RegularGridTopology n="6 1 1" max="1 0 0"/>
+  <MechanicalObject template="Rigid3d"/>
+  <BeamInterpolation name="beams" radius="0.01" defaultYoungModulus="1e7"/>
+  <AdaptiveBeamForceField interpolation="@beams.beams"/>
+  <AdaptiveBeamMass interpolation="@beams.beams" massDensity="1100"/>
+  <FixedConstraint indices="0"/>
+  <Node name="line">
+    <MechanicalObject/>
+    <AdaptiveBeamMapping interpolation="@../beams.beams" points="0 0 0  0.25 0 0  0.5 0 0  0.75 0 0  1 0 0"/>
+  </Node>
+</Node>)";
+constexpr std::string_view guideWire = R"(
+<Node name="wire">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RodStraightSection name="shaft" length="0.1" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="5"/>
+  <RodSpireSection name="tip" length="0.04" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="4"
+                   spireDiameter="0.04" spireHeight="0"/>
+  <WireRestShape name="shape" wireMaterials="@shaft @tip"/>
+  <WireBeamInterpolation name="beams" wireRestShape="@shape.beams"/>
+  <MechanicalObject template="Rigid3d" position="@shape.frames"/>
+  <AdaptiveBeamForceField interpolation="@beams.beams"/>
+  <AdaptiveBeamMass interpolation="@beams.beams"/>
+  <InterventionalRadiologyController instruments="@beams.beams" startingPos="0 0 0  0 0 0 1" speed="0.05"/>
+</Node>)";
 // a body that keeps its shape without elements
 constexpr std::string_view jelly = R"(
 <Node name="jelly" gravity="0 -9.81 0">
@@ -409,6 +438,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 </Node>)",
      "HERE"},
 
+    {"AdaptiveBeamMass", "", rod, ""},
     {"BeamMass", "", beams, ""},
     {"DiagonalMass", R"(<DiagonalMass massDensity="1000"/>)"},
     {"HexahedronCompositeFEMMass", "", composite, ""},
@@ -424,6 +454,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <UniformMass vertexMass="1 1  0.02 0 0  0 0.01 0  0 0 0.01"/>
   <AngularSpringForceField indices="0 1 2" angularStiffness="5"/>
 </Node>)"},
+    {"AdaptiveBeamForceField", "", rod, ""},
     {"BeamFEMForceField", "", beams, ""},
     {"ConstantForceField",
      R"(<ConstantForceField indices="4 9" totalForce="0 0 5"/>)",
@@ -772,6 +803,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      softBody,
      "FixedConstraint",
      Place::beside},
+    {"InterventionalRadiologyController", "", guideWire, ""},
     {"AttachProjectiveConstraint", R"(
 <Node name="root" gravity="0 -9.81 0">
   <EulerImplicitSolver/>
@@ -903,6 +935,7 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <StiffSpringForceField object1="@hand/points" object2="@weight/points" spring="0 0 50 0.1 0.5"/>
 </Node>)"},
 
+    {"AdaptiveBeamMapping", "", rod, ""},
     {"BarycentricMapping", "", carrier, ""},
     {"BeamLinearMapping",
      R"(
@@ -1824,6 +1857,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
   <StiffSpringForceField object1="@hooks/points" object2="@drops/points" springsIndices1="@near.indices1"
                          springsIndices2="@near.indices2" lengths="@near.distances" stiffness="50" damping="0.1"/>
 </Node>)"},
+    {"BeamInterpolation", "", rod, ""},
+    {"RodSpireSection", "", guideWire, ""},
+    {"RodStraightSection", "", guideWire, ""},
+    {"WireBeamInterpolation", "", guideWire, ""},
+    {"WireRestShape", "", guideWire, ""},
     {"GenerateRigidMass", R"(
 <Node name="brick" gravity="0 -9.81 0">
   <EulerImplicitSolver/>

@@ -5,6 +5,7 @@
 #include <sinew/scene/mouse_interactor.hpp>
 
 // All components of control:
+#include <sinew/control/interventional_radiology_controller.hpp>
 #include <sinew/control/multi_step_animation_loop.hpp>
 #include <sinew/control/read_state.hpp>
 #include <sinew/control/step_callback.hpp>

@@ -4,6 +4,7 @@
 // Data made before a scene starts: meshes that are loaded, generated or changed, and selections of points.
 // All components of engine, topology:
 #include <sinew/engine/average_coord.hpp>
+#include <sinew/engine/beam_interpolation.hpp>
 #include <sinew/engine/box_roi.hpp>
 #include <sinew/engine/clustering_engine.hpp>
 #include <sinew/engine/complementary_roi.hpp>
@@ -54,6 +55,8 @@
 #include <sinew/engine/quat_to_rigid.hpp>
 #include <sinew/engine/random_point_distribution.hpp>
 #include <sinew/engine/rigid_to_quat.hpp>
+#include <sinew/engine/rod_spire_section.hpp>
+#include <sinew/engine/rod_straight_section.hpp>
 #include <sinew/engine/roi_value_mapper.hpp>
 #include <sinew/engine/select_label_roi.hpp>
 #include <sinew/engine/shape_matching.hpp>
@@ -75,6 +78,8 @@
 #include <sinew/engine/volume_from_triangles.hpp>
 #include <sinew/engine/volume_from_volumetric_elements.hpp>
 #include <sinew/engine/voxel_grid_loader.hpp>
+#include <sinew/engine/wire_beam_interpolation.hpp>
+#include <sinew/engine/wire_rest_shape.hpp>
 #include <sinew/topology/cube_topology.hpp>
 #include <sinew/topology/cylinder_grid_topology.hpp>
 #include <sinew/topology/mesh_topology.hpp>

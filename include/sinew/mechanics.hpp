@@ -30,6 +30,7 @@
 #include <sinew/constraint/project_to_plane.hpp>
 #include <sinew/constraint/project_to_point.hpp>
 #include <sinew/context/gravity.hpp>
+#include <sinew/force/adaptive_beam_force_field.hpp>
 #include <sinew/force/angular_spring.hpp>
 #include <sinew/force/beam_fem.hpp>
 #include <sinew/force/bending_springs.hpp>
@@ -78,6 +79,7 @@
 #include <sinew/force/triquadratic_hexahedron_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/virtual_coupling.hpp>
+#include <sinew/mapping/adaptive_beam_mapping.hpp>
 #include <sinew/mapping/area_mapping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
@@ -99,6 +101,7 @@
 #include <sinew/mapping/subset_multi_mapping.hpp>
 #include <sinew/mapping/tubular_mapping.hpp>
 #include <sinew/mapping/volume_mapping.hpp>
+#include <sinew/mass/adaptive_beam_mass.hpp>
 #include <sinew/mass/beam_mass.hpp>
 #include <sinew/mass/diagonal_mass.hpp>
 #include <sinew/mass/hexahedron_composite_fem_mass.hpp>

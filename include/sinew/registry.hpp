@@ -60,6 +60,11 @@ using SpatialSprings =
              PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>>;
 template <class D>
 using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
+// wires
+template <class D>
+using Rods = Registry<AdaptiveBeamForceField<D>, AdaptiveBeamMass<D>, InterventionalRadiologyController<D>,
+                      BeamInterpolation<D>, WireBeamInterpolation<D>, WireRestShape<D>, RodStraightSection,
+                      RodSpireSection, AdaptiveBeamMapping<D, Vec3d>>;
 template <class D>
 using SpatialRigids =
     Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
@@ -241,7 +246,7 @@ using ChangingTopologies =
 struct Standard
     : Registry<Gravity, Threads, MultiStepAnimationLoop, StandardTopologies, MadeMeshes, ChangingTopologies,
                VisualModel, StandardEngines, GridFluids, StandardForces, StandardMappings, StandardSolvers,
-               StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>> {
+               StandardCollision, StandardMultipliers, Playback<Vec3d>, Playback<Rigid3d>, Rods<Rigid3d>> {
   static constexpr bool proved = true;  // tests/runtime/promises.cpp
 };
 

@@ -176,7 +176,9 @@ struct ForceSuite {
   void run() {
     sample::for_each_variant<C>(random, [&](C const& sampled) {
       INFO(component_name<C>());
-      SubjectOf<C> subject(sampled, InitContext<D>{"sample", rest, elementsOf<C>(), {}, bodyOf<C>()});
+      C own = sampled;
+      sample::rest_at(own, rest, body);
+      SubjectOf<C> subject(own, InitContext<D>{"sample", rest, elementsOf<C>(), {}, bodyOf<C>()});
       check(subject);
     });
   }

@@ -217,9 +217,17 @@ constexpr bool stabilizes(M const&) {
 /// Gives a mass a value of its own for each point, or for all.
 template <class M>
 void give_masses(M&, std::size_t, Random&) {}
+/// Whether the inverse of a mass that has not its own is that of the sums of its rows.
+template <class M>
+constexpr bool has_row_sums(M const&) {
+  return true;
+}
 /// Makes random values of fields agree with each other and with the body.
 template <class C>
 void prepare(C&, Random&) {}
+/// Makes a force whose rest is among its fields rest where the body does.
+template <class C, class VecCoord>
+void rest_at(C&, VecCoord const&, Body const&) {}
 /// The same after each choice of enums and bools.
 template <class C>
 void complete(C&, Random&) {}

@@ -3,6 +3,8 @@
 
 // What components need beside random values in the ranges of their fields.
 // All files of samples:
+#include "samples/adaptive_beam.hpp"
+#include "samples/adaptive_beam_mapping.hpp"
 #include "samples/affine_movement.hpp"
 #include "samples/angular_spring.hpp"
 #include "samples/attach.hpp"
@@ -29,6 +31,7 @@
 #include "samples/identity_multi_mapping.hpp"
 #include "samples/immersed_solid.hpp"
 #include "samples/interaction_ellipsoid_force_field.hpp"
+#include "samples/interventional_radiology_controller.hpp"
 #include "samples/joint_spring.hpp"
 #include "samples/linear_movement.hpp"
 #include "samples/linear_velocity.hpp"

@@ -63,13 +63,13 @@ TEST_CASE("a skin stands at rest where it was given, whatever the frames, and mo
 TEST_CASE("points follow the beam that is nearest to them") {
   Points out{{0.4, 0.1, 0}, {2.5, 0, 1}, {-1, 0, 0}, {9, 0, 0}};
   auto mapping = ready({.localCoord = false}, line, out);
-  CHECK(mapping.carriers[0].frames == std::array{0, 1});
-  CHECK(mapping.carriers[0].place == Approx(0.4));
-  CHECK(mapping.carriers[1].frames == std::array{1, 2});
-  CHECK(mapping.carriers[1].place == Approx(0.75));
+  CHECK(mapping.carried.carriers[0].frames == std::array{0, 1});
+  CHECK(mapping.carried.carriers[0].place == Approx(0.4));
+  CHECK(mapping.carried.carriers[1].frames == std::array{1, 2});
+  CHECK(mapping.carried.carriers[1].place == Approx(0.75));
   // beyond the ends they are carried by the last frame alone
-  CHECK(mapping.carriers[2].place == 0);
-  CHECK(mapping.carriers[3].place == 1);
+  CHECK(mapping.carried.carriers[2].place == 0);
+  CHECK(mapping.carried.carriers[3].place == 1);
   Frames moved = line;
   moved[2] = frame({3, 1, 0}, Quaterniond(AngleAxisd(pi / 2, Vector3d::UnitZ())));
   mapping.apply(out, moved);
@@ -77,7 +77,7 @@ TEST_CASE("points follow the beam that is nearest to them") {
   CHECK((out[3] - Vector3d(3, 7, 0)).norm() < 1e-14);
   // the edges of a topology choose the beams
   Points across{{0.4, 0.1, 0}};
-  CHECK(ready({.localCoord = false}, line, across, {{0, 2}}).carriers[0].frames == std::array{0, 2});
+  CHECK(ready({.localCoord = false}, line, across, {{0, 2}}).carried.carriers[0].frames == std::array{0, 2});
 }
 
 // A beam bent into an arc by the angle a, of radius r = L/a: the middle line comes out with an error of order

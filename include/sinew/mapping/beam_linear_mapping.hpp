@@ -3,11 +3,13 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/follow.hpp>
+#include <sinew/mapping/beam_carriers.hpp>
 #include <sinew/topology/beam_section.hpp>
 #include <sinew/topology/point_location.hpp>
 
 #include <algorithm>
 #include <array>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -49,15 +51,8 @@ struct BeamLinearMapping {
                   "positions in the world");
   }
 
-  struct Carrier {
-    std::array<int, 2> frames;
-    Real place, length;                // t, L
-    std::array<Quat<Real>, 2> toBeam;  // from the axes of the frames to those of the beam
-    Vec3 offset;                       // s
-  };
-  std::vector<Carrier> carriers{};
-  std::vector<std::array<Mat<Real, 3>, 2>>
-      rotationJacobians{};  // derivatives of x by the rotations of the two frames, at the last apply
+  using Carriers = BeamCarriers<In, Out>;
+  Carriers carried{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<BeamLinearMapping>());
@@ -72,7 +67,7 @@ struct BeamLinearMapping {
     for (auto const& x : parent.rest) centers.push_back(x.center.template cast<double>());
     const ElementLocator<MultilinearFit<1>> locator(centers, beams);
 
-    carriers.clear();
+    carried.carriers.clear();
     for (auto const& position : positions) {
       Eigen::Vector3d p = position.template cast<double>();
       int beam = int(std::clamp(std::floor(p[0]), 0.0, double(beams.size() - 1)));
@@ -84,66 +79,30 @@ struct BeamLinearMapping {
         beam = located.element;
         along = located.fit.weights[1];
       }
-      carriers.push_back(carrierAt(parent.rest, beams[std::size_t(beam)], std::clamp(along, 0.0, 1.0)));
-      Carrier& c = carriers.back();
+      carried.carriers.push_back(
+          carrierAt(parent.rest, beams[std::size_t(beam)], std::clamp(along, 0.0, 1.0)));
+      typename Carriers::Carrier& c = carried.carriers.back();
       if (localCoord)
         c.offset = c.length * Vec3(Real(along) - c.place, Real(p[1]), Real(p[2]));
       else
-        c.offset = Section(c, parent.rest).placeOf(p.template cast<Real>());
+        c.offset = typename Carriers::Section(c, parent.rest).placeOf(p.template cast<Real>());
     }
-    rotationJacobians.resize(carriers.size());
+    carried.prepare();
   }
 
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
-    for (std::size_t i = 0; i < carriers.size(); ++i) {
-      Carrier const& c = carriers[i];
-      const Section section(c, in);
-      const Vec3 arm = section.rotation * c.offset;
-      out[i] = (section.middle + arm).template cast<typename Out::Real>();
-      const Quat<Real> inverse = section.sum.inverse();
-      for (std::size_t k = 0; k < 2; ++k) {
-        // the section spins by l (q_w - [q]x) w, q = q_k / sum, when frame k, which has the weight l, spins
-        // by w
-        const Quat<Real> part = section.sides[k] * inverse;
-        const Real weight = k == 0 ? 1 - c.place : c.place;
-        const Mat<Real, 3> spin = weight * (part.w() * Mat<Real, 3>::Identity() - cross(part.vec()));
-        rotationJacobians[i][k] = -cross(section.tangents[k]) - cross(arm) * spin;
-      }
-    }
-  }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    for (std::size_t i = 0; i < carriers.size(); ++i) {
-      Vec3 v = Vec3::Zero();
-      for (std::size_t k = 0; k < 2; ++k) {
-        auto const& frame = in[std::size_t(carriers[i].frames[k])];
-        v += weightOf(carriers[i], k) * frame.template head<3>() +
-             rotationJacobians[i][k] * frame.template tail<3>();
-      }
-      out[i] = v.template cast<typename Out::Real>();
-    }
-  }
+  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { carried.apply(out, in); }
+  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const { carried.applyJ(out, in); }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t i = 0; i < carriers.size(); ++i) {
-      const Vec3 f = out[i].template cast<Real>();
-      for (std::size_t k = 0; k < 2; ++k) {
-        auto& frame = in[std::size_t(carriers[i].frames[k])];
-        frame.template head<3>() += weightOf(carriers[i], k) * f;
-        frame.template tail<3>() += rotationJacobians[i][k].transpose() * f;
-      }
-    }
+    carried.applyJT(in, out);
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
-    Carrier const& c = carriers[std::size_t(point)];
-    for (std::size_t k = 0; k < 2; ++k) {
-      Mat<Real, 3, 6> j;
-      j << weightOf(c, k) * Mat<Real, 3>::Identity(), rotationJacobians[std::size_t(point)][k];
-      f(c.frames[k], Mat<typename Out::Real, 3, 6>(j.template cast<typename Out::Real>()));
-    }
+    carried.forEachJacobianBlock(point, std::forward<F>(f));
   }
 
  private:
-  static Carrier carrierAt(typename In::VecCoord const& rest, Edge const& beam, double along) {
+  static typename Carriers::Carrier carrierAt(typename In::VecCoord const& rest, Edge const& beam,
+                                              double along) {
     auto const &x0 = rest[std::size_t(beam[0])], &x1 = rest[std::size_t(beam[1])];
     const Eigen::Vector3d chord = (x1.center - x0.center).template cast<double>();
     const Eigen::Quaterniond node[2]{x0.orientation.template cast<double>(),
@@ -155,38 +114,6 @@ struct BeamLinearMapping {
             .toBeam = {Quat<Real>((node[0].conjugate() * axes).template cast<Real>()),
                        Quat<Real>((node[1].conjugate() * axes).template cast<Real>())},
             .offset = Vec3::Zero()};
-  }
-  static Real weightOf(Carrier const& c, std::size_t k) {
-    const Real f = c.place * c.place * (3 - 2 * c.place);
-    return k == 0 ? 1 - f : f;
-  }
-  /// Where a point's section of its beam is.
-  struct Section {
-    std::array<Quat<Real>, 2> sides;  // q_k, of the two quaternions of T_k those on one side
-    std::array<Vec3, 2> tangents;     // L (t - 2t^2 + t^3) T_0 e_x, L (t^3 - t^2) T_1 e_x
-    Quat<Real> sum, rotation;         // (1 - t) q_0 + t q_1, and R
-    Vec3 middle;                      // on the middle line
-
-    Section(Carrier const& c, typename In::VecCoord const& x) : middle(Vec3::Zero()) {
-      const Real t = c.place, factors[2]{t * (1 - t) * (1 - t), t * t * (t - 1)};
-      for (std::size_t k = 0; k < 2; ++k) {
-        auto const& frame = x[std::size_t(c.frames[k])];
-        Quat<Real>& q = sides[k] = frame.orientation * c.toBeam[k];
-        tangents[k] = factors[k] * c.length *
-                      Vec3(1 - 2 * (q.y() * q.y() + q.z() * q.z()),
-                           2 * (q.x() * q.y() + q.w() * q.z()),
-                           2 * (q.x() * q.z() - q.w() * q.y()));
-        middle += weightOf(c, k) * frame.center + tangents[k];
-      }
-      if (sides[1].dot(sides[0]) < 0) sides[1].coeffs() = -sides[1].coeffs();
-      sum.coeffs() = (1 - t) * sides[0].coeffs() + t * sides[1].coeffs();
-      rotation = sum.normalized();
-    }
-    /// s of a point in the world.
-    Vec3 placeOf(Vec3 const& p) const { return rotation.conjugate() * (p - middle); }
-  };
-  static Mat<Real, 3> cross(Vec3 const& a) {
-    return (Mat<Real, 3>() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
   }
 };
 

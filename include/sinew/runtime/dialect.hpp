@@ -147,12 +147,22 @@ struct ForceAndMass {
 };
 inline constexpr std::string_view compositeForce = "HexahedronCompositeFEMForceField",
                                   compositeMass = "HexahedronCompositeFEMMass",
-                                  compositeMapping = "HexahedronCompositeFEMMapping";
+                                  compositeMapping = "HexahedronCompositeFEMMapping",
+                                  rodForce = "AdaptiveBeamForceField", rodMass = "AdaptiveBeamMass";
 inline constexpr std::array forcesAndMasses = std::to_array<ForceAndMass>(
     {{"HexahedronFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", true, ""},
      {"HexahedralFEMForceFieldAndMass", "HexahedronFEMForceField", "MeshMatrixMass", false, ""},
      {"HexahedronCompositeFEMForceFieldAndMass", compositeForce, compositeMass, false, "condensed"},
-     {"NonUniformHexahedronFEMForceFieldAndMass", compositeForce, compositeMass, false, "trilinear"}});
+     {"NonUniformHexahedronFEMForceFieldAndMass", compositeForce, compositeMass, false, "trilinear"},
+     {"AdaptiveBeamForceFieldAndMass", rodForce, rodMass, false, ""}});
+/// Fields that in SOFA are links to the whole of a component, and what of it they are here.
+struct WholeLink {
+  std::string_view field, data;
+};
+inline constexpr std::array wholeLinks = std::to_array<WholeLink>({{"interpolation", "beams"},
+                                                                   {"wireRestShape", "beams"},
+                                                                   {"instruments", "beams"},
+                                                                   {"wireMaterials", "section"}});
 constexpr ForceAndMass const* force_and_mass(std::string_view tag) {
   for (auto const& both : forcesAndMasses)
     if (both.name == tag) return &both;

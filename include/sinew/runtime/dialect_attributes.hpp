@@ -61,7 +61,10 @@ struct AttributeOf {
 };
 inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"AffineMovementConstraint", "meshIndices"}, {"AngularSpringForceField", "limit"},
-    {"AngularSpringForceField", "recompute_indices"}, {"BeamFEMForceField", "useSymmetricAssembly"},
+    {"AdaptiveBeamMapping", "nameOfInputMap"}, {"AdaptiveBeamMapping", "parallelMapping"},
+    {"AdaptiveBeamMapping", "segmentsCurvAbs"}, {"InterventionalRadiologyController", "fixedConstraint"},
+    {"InterventionalRadiologyController", "threshold"}, {"RodSpireSection", "nbEdgesVisu"},
+    {"RodStraightSection", "nbEdgesVisu"}, {"AngularSpringForceField", "recompute_indices"}, {"BeamFEMForceField", "useSymmetricAssembly"},
     {"BilateralLagrangianConstraint", "topology1"}, {"BilateralLagrangianConstraint", "topology2"},
     {"BoxROI", "box_roi"}, {"BoxROI", "indices"}, {"CarvingManager", "key"}, {"CarvingManager", "keySwitch"},
     {"CarvingManager", "mouseEvent"}, {"CarvingManager", "narrowPhaseDetection"},
@@ -131,7 +134,10 @@ struct NotSimulated {
 };
 inline constexpr std::array notSimulated = std::to_array<NotSimulated>({
     {"RigidDistanceGridCollisionModel", "sampling", "0"}, {"RigidDistanceGridCollisionModel", "dumpfilename", ""},
-    {"AverageCoord", "vecId", "1"}, {"ClusteringEngine", "outFile", ""}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
+    {"AdaptiveBeamMapping", "contactDuplicate", "0"}, {"AdaptiveBeamMapping", "proximity", "0"},
+    {"BeamInterpolation", "dofsAndBeamsAligned", "1"},
+    {"InterventionalRadiologyController", "controlledInstrument", "0"},
+    {"InterventionalRadiologyController", "rigidCurvAbs", ""}, {"AverageCoord", "vecId", "1"}, {"ClusteringEngine", "outFile", ""}, {"GenerateCylinder", "BezierTetrahedronDegree", ""},
     {"GenerateCylinder", "BezierTriangleDegree", ""}, {"GenerateSphere", "BezierTetrahedronDegree", ""},
     {"GenerateSphere", "BezierTriangleDegree", ""}, {"MeshTrianLoader", "trian2", "0"},
     {"", "box", ""},

@@ -72,6 +72,7 @@ class ComposedElements {
   /// with useMass="0", for a UniformMass of the totalMass.
   void forceAndMass(ScenePlace& place, XmlElement& element, dialect::ForceAndMass const& both) {
     items_.hasNoChildren(element);
+    if (both.force == dialect::rodForce) return rodForceAndMass(place, element);
     const bool composite = !both.interpolation.empty();
     const bool uniform = composite && isOff(element, "useMass");
     XmlElement& force = items_.partOf(element, both.force);
@@ -113,6 +114,21 @@ class ComposedElements {
     mass.set("name", name_of(element, element.tag) + "_mass");
     items_.addItem(place, force);
     items_.addItem(place, mass);
+  }
+
+  /// Of rods both have the beams, and there may be no mass.
+  void rodForceAndMass(ScenePlace& place, XmlElement& element) {
+    XmlElement& force = items_.partOf(element, dialect::rodForce);
+    XmlElement& mass = items_.partOf(element, dialect::rodMass);
+    for (XmlAttribute const& a : element.attributes) {
+      // forces here are the slope of the energy in the length that a chord has
+      if (has_name("type computeMass reinforceLength", a.name)) continue;
+      if (a.name != "massDensity") force.attributes.push_back(a);
+      if (a.name != "name") mass.attributes.push_back(a);
+    }
+    mass.set("name", name_of(element, element.tag) + "_mass");
+    items_.addItem(place, force);
+    if (!isOff(element, "computeMass")) items_.addItem(place, mass);
   }
 
   /// <CGImplicit .../> of the first SOFA is an EulerImplicitSolver, damped, with a CGLinearSolver; a node

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/io/text_reader.hpp>
 #include <sinew/runtime/scene_reader/parts.hpp>
 
 #include <algorithm>
@@ -23,6 +24,7 @@ class ElementSettings {
     setDensities(top);
     setComposites(top);
     forgetInterpolation(top);
+    setRods(top);
   }
 
  private:
@@ -143,6 +145,50 @@ class ElementSettings {
         std::erase_if(item->element->attributes,
                       [](XmlAttribute const& a) { return a.name == "completeInterpolation"; });
     for (auto& child : place.children) forgetInterpolation(*child);
+  }
+
+  // what is on a rod has the beams of the interpolation in its node, or, a mapping, above it; a controller
+  // names it without @
+  void setRods(ScenePlace& place) {
+    for (auto& item : place.items) {
+      const std::string_view name = item->candidates[0]->name;
+      const bool controls = name == "InterventionalRadiologyController";
+      if (!controls && name != dialect::rodForce && name != dialect::rodMass && name != "AdaptiveBeamMapping")
+        continue;
+      if (controls) stretchGrid(place);
+      const std::string field = controls ? "instruments" : "interpolation";
+      if (auto const* given = item->element->attribute(field)) {
+        if (!controls || is_link(given->value) || Words(given->value).end()) continue;
+        Words words(given->value);
+        const std::string first(words.next());
+        if (!words.end())
+          messages_.addError(*item->element,
+                             "instruments: wires inside of each other are not simulated; name one");
+        item->element->set(field, "@" + first);
+        continue;
+      }
+      SceneItem const* found = nullptr;
+      for (ScenePlace* at = &place; at && !found; at = at->parent) {
+        for (auto const& other : at->items)
+          if (!found && has_name("BeamInterpolation WireBeamInterpolation", other->candidates[0]->name))
+            found = other.get();
+        if (!at->state.empty() && (at != &place || name != "AdaptiveBeamMapping")) break;
+      }
+      if (found) item->element->set(field, link_to(*found));
+    }
+    for (auto& child : place.children) setRods(*child);
+  }
+
+  // the frames of a wire have no places before its controller gives them some: SOFA's scenes have a grid for
+  // them that is a point
+  static void stretchGrid(ScenePlace& place) {
+    for (auto& item : place.items) {
+      XmlAttribute const *low = item->element->attribute("xmin"), *high = item->element->attribute("xmax");
+      double from = 0, to = 0;
+      if (item->candidates[0]->name == "RegularGridTopology" && low && high &&
+          io::parse_number(low->value, from) && io::parse_number(high->value, to) && from == to)
+        item->element->set("xmax", text(from + 1));
+    }
   }
 
   // A preconditioner, or the linear solver that is one, is a setting of the solver that links to it.

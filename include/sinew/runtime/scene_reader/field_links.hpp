@@ -102,6 +102,9 @@ inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute c
           text(item.element->place(a), ": <", item.tag, ">: ", a.name, ": ", otherwise, ": ", error.what()));
     return false;
   }
+  for (auto const& whole : dialect::wholeLinks)
+    if (target.data.empty() && target.item && field.name == whole.field)
+      target.data = std::string(whole.data);
   if (field.name == "external_rest_shape") {
     if (target.data.empty()) target.data = "position";
     if (moves(target.item ? *target.item->place : *target.place))

@@ -37,6 +37,17 @@ inline std::optional<LinkWords> read_link(std::string_view link) {
   return words;
 }
 
+/// The links of which a list has the values one behind the other, "@first @second"; none of one with blanks
+/// in a name.
+inline std::vector<std::string> several_links(std::string_view value) {
+  std::vector<std::string> links;
+  for (Words words(value); !words.end();) {
+    links.emplace_back(words.next());
+    if (!links.back().starts_with('@')) return {};
+  }
+  return links;
+}
+
 /// What a link leads to: a component or a node, and what of it.
 struct LinkTarget {
   SceneItem* item = nullptr;

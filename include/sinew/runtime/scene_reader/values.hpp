@@ -197,6 +197,14 @@ class SceneValues {
         const LinkTarget model = follow_link(item, a.value);  // a model, by its node
         linked = (model.item ? model.item->place : model.place)->path();
         linked.erase(0, linked.find('/', 1));  // from the root on
+      } else if (const auto several = several_links(a.value); several.size() > 1) {
+        XmlAttribute one = a;
+        for (std::string const& link : several) {
+          LinkTarget target;
+          one.value = link;
+          if (follow_field(item, *field, one, target, messages_))
+            linked += values_.linkedValue(item, *field, std::move(target)) + ' ';
+        }
       } else if (is_link(a.value)) {
         LinkTarget target;
         if (!follow_field(item, *field, a, target, messages_)) return void(given.erase(field->name));
