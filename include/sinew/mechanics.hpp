@@ -75,6 +75,7 @@
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/area_mapping.hpp>
+#include <sinew/mapping/articulated_system_mapping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>

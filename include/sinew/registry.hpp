@@ -129,12 +129,17 @@ using MeasuringMappings =
              DistanceFromTargetMapping<Vec3d, Vec1d>, DistanceFromTargetMapping<Rigid3d, Vec1d>,
              DistanceToPlaneMapping<Vec3d, Vec1d>, DistanceToPlaneMapping<Rigid3d, Vec1d>,
              SquareMapping<Vec1d, Vec1d>>;
+// bodies joined by hinges and slides, alone or on a base
+template <class In, class Out>
+using ArticulatedMappings =
+    Registry<ArticulatedSystemMapping<In, Out>, RootedArticulatedSystemMapping<In, Out, Out>>;
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
                                IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>,
                                DistanceMultiMapping<Vec3d, Vec1d>, DistanceMultiMapping<Rigid3d, Vec1d>,
-                               DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>>;
+                               DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>,
+                               ArticulatedMappings<Vec1d, Rigid3d>>;
 using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =

@@ -5,6 +5,7 @@
 // All files of samples:
 #include "samples/affine_movement.hpp"
 #include "samples/angular_spring.hpp"
+#include "samples/articulated_system_mapping.hpp"
 #include "samples/attach.hpp"
 #include "samples/augmented_lagrangian_constraint.hpp"
 #include "samples/barycentric_mapping.hpp"

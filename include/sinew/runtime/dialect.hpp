@@ -328,6 +328,10 @@ constexpr AnotherMethod const* another_method(std::string_view tag) {
   return nullptr;
 }
 
+/// Joints of articulated bodies, which are lists of their mapping: what holds all, one, and its axes.
+inline constexpr std::array ofArticulations = std::to_array<std::string_view>(
+    {"ArticulatedHierarchyContainer", "ArticulationCenter", "Articulation"});
+
 /// The implicit Euler solver of the first SOFA, which has its conjugate gradients in it.
 inline constexpr std::array implicitWithCG =
     std::to_array<std::string_view>({"CGImplicit", "CGImplicitSolver", "CgImplicit", "CgImplicitSolver"});

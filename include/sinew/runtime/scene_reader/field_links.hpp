@@ -115,9 +115,9 @@ inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute c
 
 /// Input and output of a mapping say what the tree says: the state above, and that of its node.
 inline void check_ends(SceneItem& item, SceneMessages& messages) {
-  for (std::string_view name : {"input", "output"}) {
+  for (std::string_view name : {"input", "input1", "output"}) {
     auto const* a = item.element->attribute(name);
-    if (!a || !is_link(a->value) || (item.info->severalParents && name == "input")) continue;
+    if (!a || !is_link(a->value) || (item.info->severalParents && name != "output")) continue;
     try {
       const LinkTarget target = follow_link(item, a->value);
       ScenePlace const* const place = target.item ? target.item->place : target.place;
