@@ -34,7 +34,7 @@ template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
 using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>,
-                              InteractionEllipsoidForceField<D>>;
+                              InteractionEllipsoidForceField<D>, TorsionForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -45,7 +45,7 @@ using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
              PyramidFEMForceField<D>, PrismFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
-             EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+             EdgePressureForceField<D>, OscillatingTorsionPressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
              QuadBendingFEMForceField<D>>;
 template <class D>
@@ -55,13 +55,16 @@ template <class D>
 using SpatialSprings =
     Registry<TriangularBendingSprings<D>, TriangleBendingSprings<D>, QuadularBendingSprings<D>,
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
-             PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>>;
+             PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>,
+             RepulsiveSpringForceField<D>, RepulsiveSpringForceField<D, Linked>, VectorSpringForceField<D>,
+             VectorSpringForceField<D, Linked>>;
 template <class D>
 using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
 template <class D>
 using SpatialRigids =
-    Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-             GearSpringForceField<D>, GearSpringForceField<D, Linked>, JointSpringForceField<D>,
+    Registry<AngularSpringForceField<D>, TorsionForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
+             FrameSpringForceField<D>, FrameSpringForceField<D, Linked>, GearSpringForceField<D>,
+             GearSpringForceField<D, Linked>, JointSpringForceField<D>,
              JointSpringForceField<D, Linked>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
              PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
