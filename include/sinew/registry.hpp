@@ -45,7 +45,8 @@ using ElementForces =
     Registry<TetrahedronFEMForceField<D>, HexahedronFEMForceField<D>, HexahedronCompositeFEMForceField<D>,
              PyramidFEMForceField<D>, PrismFEMForceField<D>, TriangleFEMForceField<D>,
              SurfacePressureForceField<D>, TrianglePressureForceField<D>, QuadPressureForceField<D>,
-             EdgePressureForceField<D>, OscillatingTorsionPressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
+             EdgePressureForceField<D>, OscillatingTorsionPressureForceField<D>,
+             TriangularQuadraticSpringsForceField<D>,
              TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
              QuadBendingFEMForceField<D>>;
 template <class D>

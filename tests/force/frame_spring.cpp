@@ -35,7 +35,8 @@ double dot(Rigid3d::VecDeriv const& a, Rigid3d::VecDeriv const& b) { return a[0]
 }  // namespace
 
 TEST_CASE("points are drawn together, and axes are turned to each other") {
-  auto spring = made({.stiffnessTranslation = 3, .stiffnessRotation = 5, .firstPoint = {1, 0, 0}, .secondPoint = {0, 2, 0}});
+  auto spring = made(
+      {.stiffnessTranslation = 3, .stiffnessRotation = 5, .firstPoint = {1, 0, 0}, .secondPoint = {0, 2, 0}});
   const double quarter = std::acos(0.0);
   // the first point is at (0, 1, 0) of the world, the second one at (4, 2, 0)
   const Rigid3d::VecCoord x{frame({0, 0, 0}, {0, 0, quarter}), frame({4, 0, 0})};
@@ -63,7 +64,8 @@ TEST_CASE("forces are those of an energy, and the tangent the symmetric part of 
                       .damping = 0.7,
                       .firstPoint = {1, 0.5, -0.3},
                       .secondPoint = {-0.2, 2, 0.4}});
-  const Rigid3d::VecCoord x{frame({0.1, 0.2, -0.4}, {0.3, -0.8, 0.5}), frame({1, -0.6, 0.3}, {-0.9, 0.2, 1.3})};
+  const Rigid3d::VecCoord x{frame({0.1, 0.2, -0.4}, {0.3, -0.8, 0.5}),
+                            frame({1, -0.6, 0.3}, {-0.9, 0.2, 1.3})};
   const double h = 1e-5;  // differences: truncation 1e-10, rounding 1e-11
   auto moved = [&](Rigid3d::VecDeriv const& d, double step) {
     auto y = x;
@@ -72,9 +74,12 @@ TEST_CASE("forces are those of an energy, and the tangent the symmetric part of 
   };
   const auto u = motion(2), w = motion(31);
   const auto f = one::force(spring, x);
-  CHECK(dot(f, u) == Approx(-(potential_energy(spring, moved(u, h)) - potential_energy(spring, moved(u, -h))) / (2 * h)).epsilon(1e-7));
+  CHECK(dot(f, u) ==
+        Approx(-(potential_energy(spring, moved(u, h)) - potential_energy(spring, moved(u, -h))) / (2 * h))
+            .epsilon(1e-7));
   auto slope = [&](Rigid3d::VecDeriv const& d, Rigid3d::VecDeriv const& along) {
-    return (dot(one::force(spring, moved(d, h)), along) - dot(one::force(spring, moved(d, -h)), along)) / (2 * h);
+    return (dot(one::force(spring, moved(d, h)), along) - dot(one::force(spring, moved(d, -h)), along)) /
+           (2 * h);
   };
   const double expected = (slope(u, w) + slope(w, u)) / 2;
   one::force(spring, x);

@@ -24,7 +24,8 @@ TEST_CASE("a torsion grows with the distance from its axis") {
   Rigid3d::VecCoord bodies(1);
   bodies[0].center = {3, 0, 5};
   auto rigid = one::ready(
-      TorsionForceField<Rigid3d>{.indices = {0}, .torque = 3, .axis = {0, 0, 2}, .origin = {1, 0, 0}}, bodies);
+      TorsionForceField<Rigid3d>{.indices = {0}, .torque = 3, .axis = {0, 0, 2}, .origin = {1, 0, 0}},
+      bodies);
   CHECK(one::force(rigid, bodies)[0] == (Rigid3d::Deriv() << 0, 6, 0, 0, 0, 3).finished());
   CHECK(one::product(rigid, {Rigid3d::Deriv::Ones()}, 1, 1)[0].norm() == 0);
 }

@@ -14,14 +14,15 @@ using Repulsive = RepulsiveSpringForceField<Vec3d>;
 const Vec3d::VecCoord rest = {{0, 0, 0}, {1, 0, 0}, {1, 2, 0}};
 
 TEST_CASE("a spring holds the vector between its points, not only the length") {
-  auto given = one::ready(
-      Vectors{.springs = {{0, 1, 10, 2, Eigen::Vector3d(1, 1, 0)}, {1, 2, 4, 0, {}}}}, rest);
+  auto given =
+      one::ready(Vectors{.springs = {{0, 1, 10, 2, Eigen::Vector3d(1, 1, 0)}, {1, 2, 4, 0, {}}}}, rest);
   const Vec3d::VecCoord x = {{0, 0, 0}, {0, 1, 0}, {0, 3, 0}};  // turned: the lengths are those at rest
   const auto f = one::force(given, x, {{0, 0, 0}, {0, 0, 3}, {0, 0, 0}});
   CHECK(f[0].isApprox(Eigen::Vector3d(-10, 0, 6)));  // k (x1 - x0 - L) + c v1
   CHECK(f[2].isApprox(Eigen::Vector3d(0, 0, 0)));    // as at rest
   CHECK(potential_energy(given, x) == Approx(5));
-  CHECK(one::product(given, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, 1, 0.5)[1].isApprox(Eigen::Vector3d(-11 - 4, 0, 0)));
+  CHECK(one::product(given, {{0, 0, 0}, {1, 0, 0}, {0, 0, 0}}, 1, 0.5)[1].isApprox(
+      Eigen::Vector3d(-11 - 4, 0, 0)));
 }
 
 TEST_CASE("edges of the topology, or points of the same number, are joined where none is given") {

@@ -115,7 +115,8 @@ TEST_CASE("velocities, accelerations and stiffness are derivatives") {
   Mapping mapping = tree<Mapping>();
   mapping.geometricStiffness = RotationalStiffness::symmetrized;
   auto x = placed(mapping, angles);
-  const auto before = placed(mapping, moved(angles, rates, -h)), after = placed(mapping, moved(angles, rates, h));
+  const auto before = placed(mapping, moved(angles, rates, -h)),
+             after = placed(mapping, moved(angles, rates, h));
   Rigid3d::VecDeriv v(x.size()), later = v, earlier = v;
   mapping.apply(x, moved(angles, rates, h));
   mapping.applyJ(later, rates);
@@ -141,8 +142,7 @@ TEST_CASE("velocities, accelerations and stiffness are derivatives") {
   mapping.applyJT(plus, f);
   mapping.apply(x, moved(angles, rates, -h));
   mapping.applyJT(minus, f);
-  for (std::size_t i = 0; i < 8; ++i)
-    CHECK(std::abs((plus[i][0] - minus[i][0]) / (2 * h) - k[i][0]) < 1e-7);
+  for (std::size_t i = 0; i < 8; ++i) CHECK(std::abs((plus[i][0] - minus[i][0]) / (2 * h) - k[i][0]) < 1e-7);
 
   // virtual work
   mapping.apply(x, angles);
@@ -279,11 +279,10 @@ TEST_CASE("what does not fit an ArticulatedSystemMapping is named") {
   CHECK_THAT(with([](Mapping& m) { m.articulations[0].axis.setZero(); }),
              Contains("articulations[0] has the axis 0 0 0, which has no direction"));
   CHECK_THAT(with([](Mapping& m) { m.articulations[0].axis[1] = NAN; }), Contains("no direction"));
-  CHECK_THAT(with(
-                 [](Mapping& m) {
-                   m.centers[0].articulationProcess = P::onParent;
-                   m.articulations[1].center = 0;
-                 }),
+  CHECK_THAT(with([](Mapping& m) {
+               m.centers[0].articulationProcess = P::onParent;
+               m.articulations[1].center = 0;
+             }),
              Contains("centers[0] turns about several axes of one body (articulationProcess 1)"));
   auto rooted = [](int index, int child) {
     return error_of([=] {

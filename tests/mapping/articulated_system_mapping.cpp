@@ -33,13 +33,13 @@ auto pendulum(std::vector<double> const& start) {
   RigidMass<double, 3> rod;
   rod.mass = mass;
   rod.inertia = inertia * Eigen::Matrix3d::Identity();
-  Simulation sim{node<"root">(Gravity{{0, -g, 0}},
-                              EulerExplicitSolver{},
-                              CGLinearSolver<>{.iterations = 20, .tolerance = 1e-14},
-                              node<"angles">(MechanicalObject<Vec1d>{.position = angles},
-                                             node<"bodies">(MechanicalObject<Rigid3d>{},
-                                                            UniformMass<Rigid3d>{.vertexMass = rod},
-                                                            mapping)))};
+  Simulation sim{node<"root">(
+      Gravity{{0, -g, 0}},
+      EulerExplicitSolver{},
+      CGLinearSolver<>{.iterations = 20, .tolerance = 1e-14},
+      node<"angles">(
+          MechanicalObject<Vec1d>{.position = angles},
+          node<"bodies">(MechanicalObject<Rigid3d>{}, UniformMass<Rigid3d>{.vertexMass = rod}, mapping)))};
   sim.init();
   return sim;
 }
@@ -82,7 +82,8 @@ Eigen::Vector4d slope(Eigen::Vector4d const& y) {
                d = 2 * mass * std::sin(s - t);
   Eigen::Matrix2d L;
   L << 5 * mass + inertia, c, c, mass + inertia;
-  const Eigen::Vector2d right(-d * rt * rt - 3 * mass * g * std::sin(s), d * rs * rs - mass * g * std::sin(t));
+  const Eigen::Vector2d right(-d * rt * rt - 3 * mass * g * std::sin(s),
+                              d * rs * rs - mass * g * std::sin(t));
   Eigen::Vector4d out;
   out << rs, rt, L.inverse() * right;
   return out;
@@ -93,7 +94,8 @@ TEST_CASE("a double pendulum follows the equations of Lagrange, with its energy"
   const double duration = 1.5;
   for (int i = 0; i < 3000; ++i) {
     const double k = duration / 3000;
-    const Eigen::Vector4d k1 = slope(y), k2 = slope(y + k / 2 * k1), k3 = slope(y + k / 2 * k2), k4 = slope(y + k * k3);
+    const Eigen::Vector4d k1 = slope(y), k2 = slope(y + k / 2 * k1), k3 = slope(y + k / 2 * k2),
+                          k4 = slope(y + k * k3);
     y += k / 6 * (k1 + 2 * k2 + 2 * k3 + k4);
   }
   CHECK(std::abs(y[2]) + std::abs(y[3]) > 1);  // it is fast

@@ -13,8 +13,8 @@
 
 namespace sinew {
 
-/// One spring of a FrameSpringForceField, in words as SOFA has them: BEGIN_SPRING 0 1 KS_T 100 KS_R 20 KD 1 VEC1 1 0 0
-/// VEC2 -1 0 0 END_SPRING.
+/// One spring of a FrameSpringForceField, in words as SOFA has them: BEGIN_SPRING 0 1 KS_T 100 KS_R 20 KD 1
+/// VEC1 1 0 0 VEC2 -1 0 0 END_SPRING.
 struct FrameSpring {
   static constexpr std::array<std::string_view, 2> bracket{"BEGIN_SPRING", "END_SPRING"};
   static constexpr int unnamed = 2;  // values that stand without their names
@@ -29,12 +29,18 @@ struct FrameSpring {
     return field_list(
         field("first", &S::first, "", "body at the first end", r).numbersOf(Of::points),
         field("second", &S::second, "", "body at the second end", r).numbersOf(Of::secondPoints),
-        field("stiffnessTranslation", &S::stiffnessTranslation, "N/m", "force per distance of the two points", r)
+        field("stiffnessTranslation",
+              &S::stiffnessTranslation,
+              "N/m",
+              "force per distance of the two points",
+              r)
             .also("KS_T"),
         field("stiffnessRotation", &S::stiffnessRotation, "N m/rad", "torque per angle between the bodies", r)
             .also("KS_R"),
-        field("damping", &S::damping, "N s/m", "force, and torque [N m s], per relative velocity", r).also("KD"),
-        field("firstPoint", &S::firstPoint, "m", "the point at the first end, in axes of its body").also("VEC1"),
+        field("damping", &S::damping, "N s/m", "force, and torque [N m s], per relative velocity", r)
+            .also("KD"),
+        field("firstPoint", &S::firstPoint, "m", "the point at the first end, in axes of its body")
+            .also("VEC1"),
         field("secondPoint", &S::secondPoint, "m", "the point at the second end, likewise").also("VEC2"));
   }
 };
@@ -93,12 +99,13 @@ struct FrameSpringLaw {
     const Vec3 d = dx[1].template head<3>() + w1.cross(tangent.arms[1]) - dx[0].template head<3>() -
                    w0.cross(tangent.arms[0]);
     const Vec3 force = (k * rest.stiffness + b * rest.damping) * d;
-    const Vec3 shared = k * rest.rotationStiffness * (tangent.symmetric * (w1 - w0)) + b * rest.damping * (w1 - w0);
+    const Vec3 shared =
+        k * rest.rotationStiffness * (tangent.symmetric * (w1 - w0)) + b * rest.damping * (w1 - w0);
     const Real turning = k * rest.rotationStiffness;
-    df[0] << force,
-        tangent.arms[0].cross(force) + shared + turning * (tangent.skew * w1) + k * (geometric(tangent, 0) * w0);
-    df[1] << -force,
-        -tangent.arms[1].cross(force) - shared - turning * (tangent.skew * w0) + k * (geometric(tangent, 1) * w1);
+    df[0] << force, tangent.arms[0].cross(force) + shared + turning * (tangent.skew * w1) +
+                        k * (geometric(tangent, 0) * w0);
+    df[1] << -force, -tangent.arms[1].cross(force) - shared - turning * (tangent.skew * w0) +
+                         k * (geometric(tangent, 1) * w1);
   }
 
   Mat<Real, 6> block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real b) const {
@@ -142,12 +149,13 @@ struct FrameSpringLaw {
   }
 };
 
-/// Springs that hold points of rigid bodies together and their axes parallel, inside one state (`E` = Within), or
-/// between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` = Linked in a runtime
-/// tree). Unlike JointSpringForceField they are the same along and about all axes, and have an energy.
+/// Springs that hold points of rigid bodies together and their axes parallel, inside one state (`E` =
+/// Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` = Linked
+/// in a runtime tree). Unlike JointSpringForceField they are the same along and about all axes, and have an
+/// energy.
 ///
-/// In SOFA the torque of the angle is taken in axes of the first body as if it were in those of the world, the
-/// damping torque on the second body drives it, and the damping force is that of the centres.
+/// In SOFA the torque of the angle is taken in axes of the first body as if it were in those of the world,
+/// the damping torque on the second body drives it, and the damping force is that of the centres.
 template <class D, class E = Within>
 struct FrameSpringForceField {
   static_assert(D::rigid && D::spatial == 3,

@@ -15,18 +15,19 @@
 
 namespace sinew {
 
-/// Turns a part of a surface to and fro about an axis, as a plate would that is glued to it: its points are held at
-/// their places relative to each other, and have a moment M cos(2 pi nu t) about the axis together. With a the arms of
-/// the points from the axis at rest, b those now, o their feet on the axis, and the mean turn
+/// Turns a part of a surface to and fro about an axis, as a plate would that is glued to it: its points are
+/// held at their places relative to each other, and have a moment M cos(2 pi nu t) about the axis together.
+/// With a the arms of the points from the axis at rest, b those now, o their feet on the axis, and the mean
+/// turn
 ///   p = sum |b| angle(a, b) / sum |b|,
 /// a point has
 ///   k (o + R(p) a - x) + e w (M cos(2 pi nu t) - m) / |b|,   e = u x b / |b|                      [N]
 /// with m the moment of the first parts, so that the sum is M cos(2 pi nu t), and the shares, sum w = 1,
 ///   w_i ~ sum over triangles of A/3 |a_i| (|a_i|^2 + s_ij^2 + s_ik^2 + t_i^2 + g^2),
-/// of mean distances from the axis, s = (|a_i| + |a_j|)/2, t_i = (|a_i| + s_ij + s_ik)/3, g = sum |a|/3, as SOFA has
-/// them. The triangles are those of `triangleList`, else those whose points lie at rest between two planes, dmin < u.x
-/// < dmax. Turns are less than half a one. The force has no energy, and is that of the start of a step, as in SOFA:
-/// steps h have h^2 k below 4 times the mass of a point.
+/// of mean distances from the axis, s = (|a_i| + |a_j|)/2, t_i = (|a_i| + s_ij + s_ik)/3, g = sum |a|/3, as
+/// SOFA has them. The triangles are those of `triangleList`, else those whose points lie at rest between two
+/// planes, dmin < u.x < dmax. Turns are less than half a one. The force has no energy, and is that of the
+/// start of a step, as in SOFA: steps h have h^2 k below 4 times the mass of a point.
 template <class D>
 struct OscillatingTorsionPressureForceField {
   using Role = role::ForceField;
@@ -50,16 +51,22 @@ struct OscillatingTorsionPressureForceField {
         field("moment", &F::moment, "N m", "greatest moment about the axis"),
         field("triangleList", &F::triangleList, "", "triangles that are turned", range::nonNegative)
             .numbersOf(Of::triangles),
-        field("axis", &F::axis, "", "direction of the axis, and normal of the two planes; of any length but 0"),
+        field(
+            "axis", &F::axis, "", "direction of the axis, and normal of the two planes; of any length but 0"),
         field("center", &F::center, "m", "a point of the axis"),
-        field("penalty", &F::penalty, "N/m", "stiffness that holds points in their places", range::nonNegative),
+        field(
+            "penalty", &F::penalty, "N/m", "stiffness that holds points in their places", range::nonNegative),
         field("frequency", &F::frequency, "1/s", "oscillations per second", range::nonNegative),
         field("dmin", &F::dmin, "m", "where the lower plane is, axis.x = dmin"),
         field("dmax", &F::dmax, "m", "where the higher plane is; no planes where it is dmin"));
   }
 
   static constexpr ForceProperties properties() {
-    return {.internal = false, .objective = false, .conservative = false, .exactTangent = false, .implicit = false};
+    return {.internal = false,
+            .objective = false,
+            .conservative = false,
+            .exactTangent = false,
+            .implicit = false};
   }
 
   bool none = false;  // all of the triangles with a number have been removed
@@ -80,12 +87,14 @@ struct OscillatingTorsionPressureForceField {
   Vec3 direction = Vec3::Zero();
 
   void init(InitContext<D> const& context) {
-    const std::string where = text(context.where, ": ", component_name<OscillatingTorsionPressureForceField>());
+    const std::string where =
+        text(context.where, ": ", component_name<OscillatingTorsionPressureForceField>());
     TopologyView const& t = context.topology;
     const std::size_t n = context.rest.size();
     detail::check_indices(where, "triangle", t.triangles, n);
     check_numbers(where, "triangleList", triangleList, t.triangles.size(), "triangles", "the topology");
-    if (!(axis.norm() > 0)) throw Error(where, "axis is 0 0 0, which has no direction; give that of the axis");
+    if (!(axis.norm() > 0))
+      throw Error(where, "axis is 0 0 0, which has no direction; give that of the axis");
     if (dmin > dmax) throw Error(where, text("dmin is ", dmin, ", above dmax, ", dmax, "; exchange them"));
     direction = axis.normalized().template cast<Real>();
     const Vec3 middle = center.template cast<Real>();
@@ -100,7 +109,8 @@ struct OscillatingTorsionPressureForceField {
       for (int i = 0; i < 3; ++i) d[i] = arms[std::size_t(e[std::size_t(i)])].norm();
       const Real area = (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2, mean = (d[0] + d[1] + d[2]) / 3;
       for (int i = 0; i < 3; ++i) {
-        const Real s = (d[i] + d[(i + 1) % 3]) / 2, r = (d[i] + d[(i + 2) % 3]) / 2, third = (d[i] + s + r) / 3;
+        const Real s = (d[i] + d[(i + 1) % 3]) / 2, r = (d[i] + d[(i + 2) % 3]) / 2,
+                   third = (d[i] + s + r) / 3;
         const auto point = std::size_t(e[std::size_t(i)]);
         turned[point] = true;
         shares[point] += area / 3 * d[i] * (d[i] * d[i] + s * s + r * r + third * third + mean * mean);
@@ -113,15 +123,16 @@ struct OscillatingTorsionPressureForceField {
       if (turned[i])
         points.push_back({i, arms[i], context.rest[i] - arms[i], sum > 0 ? shares[i] / sum : Real(0)});
     if (!points.empty() && !(sum > 0))
-      throw Error(where, "all of its triangles lie on the axis, or have no area, so that nothing turns them; "
-                         "correct axis, center or triangleList");
+      throw Error(where,
+                  "all of its triangles lie on the axis, or have no area, so that nothing turns them; "
+                  "correct axis, center or triangleList");
     pulls.assign(points.size(), Vec3::Zero());
   }
   /// The warning of init; empty for none.
   std::string_view warning() const {
-    return points.empty() && !none
-               ? "it acts on no triangle; give triangleList, or dmin and dmax with all points of one between them"
-               : "";
+    return points.empty() && !none ? "it acts on no triangle; give triangleList, or dmin and dmax with all "
+                                     "points of one between them"
+                                   : "";
   }
 
   void addForce(MechanicalParams const& p, VecDeriv& f, VecCoord const& x, VecDeriv const&) {

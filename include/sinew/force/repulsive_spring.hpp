@@ -13,10 +13,10 @@
 
 namespace sinew {
 
-/// Springs that keep points apart: each acts while it is shorter than without force. They are inside one body (`E` =
-/// Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` = Linked in a
-/// runtime tree), and given as those of StiffSpringForceField. A spring that is damped may pull while its points part
-/// fast, as in SOFA.
+/// Springs that keep points apart: each acts while it is shorter than without force. They are inside one body
+/// (`E` = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` =
+/// Linked in a runtime tree), and given as those of StiffSpringForceField. A spring that is damped may pull
+/// while its points part fast, as in SOFA.
 template <class D, class E = Within>
 struct RepulsiveSpringForceField {
   using Ends = E;

@@ -99,8 +99,7 @@ void for_each_spring(std::string const& where, F const& of, InitContext<D> const
     check_spring_end(where, s, a, spring.first);
     check_spring_end(where, s, b, spring.second);
     if (within && spring.first == spring.second)
-      throw Error(where,
-                  text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
+      throw Error(where, text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
     if (!of_spring(where, "enabled", of.enabled, s, all.size(), true)) continue;
     using Real = typename D::Real;
     const Real length =

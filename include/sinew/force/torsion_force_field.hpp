@@ -14,10 +14,10 @@ namespace sinew {
 
 /// A load that turns points about an axis of the direction u through o: it grows with the distance from it.
 ///   f_i = T u x (x_i - o),   of rigid bodies at their centres, and on these the torque T u too
-/// T is a force per distance [N/m], whose torque about the axis is T r^2 on each point, and of rigid bodies a torque
-/// [N m]; that is SOFA's rule. It has no energy, and the symmetric part of its derivative, which the systems of implicit
-/// solvers have, is zero: it is that of the start of a step. (SOFA takes T (I - u u') for the derivative, which is not
-/// that of the force.)
+/// T is a force per distance [N/m], whose torque about the axis is T r^2 on each point, and of rigid bodies a
+/// torque [N m]; that is SOFA's rule. It has no energy, and the symmetric part of its derivative, which the
+/// systems of implicit solvers have, is zero: it is that of the start of a step. (SOFA takes T (I - u u') for
+/// the derivative, which is not that of the force.)
 template <class D>
 struct TorsionForceField {
   using Role = role::ForceField;
@@ -43,7 +43,11 @@ struct TorsionForceField {
   }
 
   static constexpr ForceProperties properties() {
-    return {.internal = false, .objective = false, .conservative = false, .exactTangent = false, .implicit = false};
+    return {.internal = false,
+            .objective = false,
+            .conservative = false,
+            .exactTangent = false,
+            .implicit = false};
   }
 
   Vec<Real, 3> turning = Vec<Real, 3>::Zero();  // T u

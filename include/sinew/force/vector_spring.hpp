@@ -66,7 +66,8 @@ struct VectorSpringLaw {
     df[0] = (dx[1] - dx[0]) * (k * rest.stiffness + b * rest.damping);
     df[1] = -df[0];
   }
-  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const&, int i, int j, Real k, Real b) const {
+  SINEW_INLINE Mat<Real, D::size> block(Rest const& rest, Tangent const&, int i, int j, Real k,
+                                        Real b) const {
     const Real factor = (k * rest.stiffness + b * rest.damping) * Real(i == j ? -1 : 1);
     Mat<Real, D::size> block;
     for (int c = 0; c < D::size; ++c)
@@ -75,11 +76,12 @@ struct VectorSpringLaw {
   }
 };
 
-/// Springs that hold the vector between two points, its direction in the world included: inside one body (`E` =
-/// Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` = Linked in a
-/// runtime tree). They are given one by one; or with `useTopology` they lie along the edges of the topology, as these
-/// are at rest; or they join each point of the first state to the one of the same number of the second, in one place.
-/// The tangent has the damping, which SOFA's leaves to the start of the step.
+/// Springs that hold the vector between two points, its direction in the world included: inside one body (`E`
+/// = Within), or between the states at two paths (`E` = Between<"a", "b/c">, at a common ancestor; `E` =
+/// Linked in a runtime tree). They are given one by one; or with `useTopology` they lie along the edges of
+/// the topology, as these are at rest; or they join each point of the first state to the one of the same
+/// number of the second, in one place. The tangent has the damping, which SOFA's leaves to the start of the
+/// step.
 template <class D, class E = Within>
 struct VectorSpringForceField {
   using Ends = E;
@@ -104,7 +106,10 @@ struct VectorSpringForceField {
         field("springs", &F::springs, "", "the springs: two points, stiffness, damping, rest vector or auto"),
         field("stiffness", &F::stiffness, "N/m", "stiffness of each, where springs are not given", r),
         field("viscosity", &F::viscosity, "N s/m", "damping of each, likewise", r),
-        field("useTopology", &F::useTopology, "", "springs are the edges of the topology, where none is given"));
+        field("useTopology",
+              &F::useTopology,
+              "",
+              "springs are the edges of the topology, where none is given"));
   }
 
   // the direction of a spring stays, whatever the body does
@@ -127,9 +132,9 @@ struct VectorSpringForceField {
         throw Error(where,
                     text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
       const typename D::Deriv vector =
-          spring.restVector ? typename D::Deriv(spring.restVector->template cast<Real>())
-                            : typename D::Deriv(b.rest[std::size_t(spring.second)] -
-                                                a.rest[std::size_t(spring.first)]);
+          spring.restVector
+              ? typename D::Deriv(spring.restVector->template cast<Real>())
+              : typename D::Deriv(b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]);
       points.push_back({spring.first, spring.second});
       rest.push_back({Real(spring.stiffness), Real(spring.damping), vector});
     }
@@ -154,8 +159,14 @@ struct VectorSpringForceField {
     } else {
       if (a.rest.size() != b.rest.size())
         throw Error(where,
-                    text("each point of ", a.where, " is joined to that of the same number of ", b.where,
-                         ", but they have ", a.rest.size(), " and ", b.rest.size(),
+                    text("each point of ",
+                         a.where,
+                         " is joined to that of the same number of ",
+                         b.where,
+                         ", but they have ",
+                         a.rest.size(),
+                         " and ",
+                         b.rest.size(),
                          " points; give springs one by one"));
       for (int i = 0; i < int(a.rest.size()); ++i)
         all.push_back({i, i, stiffness, viscosity, Vec<double, D::size>::Zero().eval()});

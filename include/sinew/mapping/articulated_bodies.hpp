@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/component.hpp>
 #include <sinew/core/compiled.hpp>
+#include <sinew/core/component.hpp>
 #include <sinew/core/data_types.hpp>
 #include <sinew/mapping/articulation.hpp>
 
@@ -21,18 +21,18 @@ struct ArticulationTree {
     int parent, child, center;
     std::size_t begin, end;  // of its articulations in `order`
   };
-  std::vector<Joint> joints{};          // each after those that bear its parent
-  std::vector<int> order{};             // articulations, joint by joint, as they act
-  std::vector<int> chain{};             // of each body, the places in `order` of what moves it, from its base on
-  std::vector<std::size_t> starts{0};   // of its part of the chain
-  std::vector<bool> borne{};            // each body
-  std::vector<int> base{};              // of each body: the one that bears all of its chain, and is not borne
+  std::vector<Joint> joints{};  // each after those that bear its parent
+  std::vector<int> order{};     // articulations, joint by joint, as they act
+  std::vector<int> chain{};     // of each body, the places in `order` of what moves it, from its base on
+  std::vector<std::size_t> starts{0};  // of its part of the chain
+  std::vector<bool> borne{};           // each body
+  std::vector<int> base{};             // of each body: the one that bears all of its chain, and is not borne
 
   /// Throws Error where a list names what is not there, a body is borne twice, in a ring or by nothing that
   /// moves it in a direction, and where angles do not say where a body is.
   void init(std::string const& where, std::vector<ArticulationCenter> const& centers,
-            std::vector<Articulation> const& articulations, std::size_t values, std::string const& whereValues,
-            std::size_t bodies);
+            std::vector<Articulation> const& articulations, std::size_t values,
+            std::string const& whereValues, std::size_t bodies);
 };
 
 /// What moves with the bodies of an articulated system over Out.
@@ -68,8 +68,8 @@ struct ArticulatedBodies {
   typename Out::VecDeriv products{};  // (dJ/dt) v
 
   void init(std::string const& where, std::vector<ArticulationCenter> const& centers,
-            std::vector<Articulation> const& articulations, std::size_t values, std::string const& whereValues,
-            typename Out::VecCoord& positions) {
+            std::vector<Articulation> const& articulations, std::size_t values,
+            std::string const& whereValues, typename Out::VecCoord& positions) {
     if (positions.empty()) {
       int last = 0;
       for (auto const& c : centers) last = std::max({last, c.parentIndex, c.childIndex});
@@ -225,7 +225,9 @@ struct ArticulatedBodies {
       for (std::size_t m = joint.begin; m < joint.end; ++m)
         for (std::size_t k = from; k < to && std::size_t(tree.chain[k]) <= m; ++k) {
           Move const &before = moves[std::size_t(tree.chain[k])], &move = moves[m];
-          f(int(before.value), int(move.value), before.rotation ? before.direction.dot(move.turned) : Real(0));
+          f(int(before.value),
+            int(move.value),
+            before.rotation ? before.direction.dot(move.turned) : Real(0));
         }
     }
   }
@@ -298,14 +300,29 @@ SINEW_ONCE void ArticulationTree::init(std::string const& where,
                                        std::vector<Articulation> const& articulations, std::size_t values,
                                        std::string const& whereValues, std::size_t bodies) {
   if (centers.empty())
-    throw Error(where,
-                "there is no center, so that nothing moves the bodies; give `centers` and `articulations`, or "
-                "in a scene file an ArticulatedHierarchyContainer with ArticulationCenters");
-  auto check = [&](std::string_view list, std::size_t i, std::string_view what, int number, std::size_t count,
+    throw Error(
+        where,
+        "there is no center, so that nothing moves the bodies; give `centers` and `articulations`, or "
+        "in a scene file an ArticulatedHierarchyContainer with ArticulationCenters");
+  auto check = [&](std::string_view list,
+                   std::size_t i,
+                   std::string_view what,
+                   int number,
+                   std::size_t count,
                    std::string_view of) {
     if (number < 0 || std::size_t(number) >= count)
       throw Error(where,
-                  text(list, '[', i, "] has ", what, ' ', number, ", but there are ", count, ' ', of,
+                  text(list,
+                       '[',
+                       i,
+                       "] has ",
+                       what,
+                       ' ',
+                       number,
+                       ", but there are ",
+                       count,
+                       ' ',
+                       of,
                        ", numbered from 0; correct it"));
   };
   std::vector<int> bearer(bodies, -1);  // the center that bears each body
@@ -316,7 +333,12 @@ SINEW_ONCE void ArticulationTree::init(std::string const& where,
     int& by = bearer[std::size_t(one.childIndex)];
     if (by >= 0)
       throw Error(where,
-                  text("body ", one.childIndex, " is borne by centers[", by, "] and by centers[", c,
+                  text("body ",
+                       one.childIndex,
+                       " is borne by centers[",
+                       by,
+                       "] and by centers[",
+                       c,
                        "]; a body is borne once: join the second one by springs or constraints"));
     by = int(c);
   }
@@ -325,15 +347,33 @@ SINEW_ONCE void ArticulationTree::init(std::string const& where,
   for (std::size_t a = 0; a < articulations.size(); ++a) {
     Articulation const& one = articulations[a];
     check("articulations", a, "center", one.center, centers.size(), "centers");
-    check("articulations", a, "articulationIndex", one.articulationIndex, values,
+    check("articulations",
+          a,
+          "articulationIndex",
+          one.articulationIndex,
+          values,
           text("values in ", whereValues));
     const double length = one.axis.norm();
     if ((one.rotation || one.translation) && !(length > 0 && length < 1e150))
-      throw Error(where, text("articulations[", a, "] has the axis ", one.axis[0], ' ', one.axis[1], ' ', one.axis[2], ", which has no direction; give it one"));
+      throw Error(where,
+                  text("articulations[",
+                       a,
+                       "] has the axis ",
+                       one.axis[0],
+                       ' ',
+                       one.axis[1],
+                       ' ',
+                       one.axis[2],
+                       ", which has no direction; give it one"));
     int& other = movedBy[std::size_t(one.articulationIndex)];
     if (other >= 0)
       throw Error(where,
-                  text("articulations[", other, "] and [", a, "] have the same value, ", one.articulationIndex,
+                  text("articulations[",
+                       other,
+                       "] and [",
+                       a,
+                       "] have the same value, ",
+                       one.articulationIndex,
                        "; give each one of its own"));
     other = int(a);
     ofCenter[std::size_t(one.center)].push_back(int(a));
@@ -346,7 +386,9 @@ SINEW_ONCE void ArticulationTree::init(std::string const& where,
     auto& list = ofCenter[c];
     if (std::count_if(list.begin(), list.end(), turns) > 1)
       throw Error(where,
-                  text("centers[", c, "] turns about several axes of one body (articulationProcess ",
+                  text("centers[",
+                       c,
+                       "] turns about several axes of one body (articulationProcess ",
                        int(process),
                        "): where the bodies are would depend on how they came there, and not on the angles "
                        "alone; take articulationProcess 0, or a center with a body for each axis"));
@@ -384,7 +426,8 @@ SINEW_ONCE void ArticulationTree::init(std::string const& where,
   for (std::size_t b = 0; b < bodies; ++b)
     if (base[b] < 0)
       throw Error(where,
-                  text("body ", b,
+                  text("body ",
+                       b,
                        " is borne in a ring; leave out the center that closes it, and join its ends by "
                        "springs or constraints"));
   for (auto const& list : moving) {

@@ -42,17 +42,17 @@ constexpr auto articulated_fields(More... more) {
 /// with value q_i,
 ///   R = R_p prod exp([a_i] q_i) over rotations,   d_i = R_p (prod of those before i) a_i
 ///   c = c_p + R_p posOnParent + sum d_i q_i over translations - R posOnChild
-/// A value moves all bodies behind it: w = d_i q_i', c' = d_i x (c - center) q_i', or c' = d_i q_i'. Its force is that
-/// of the bodies along this. With articulationProcess onParent all axes are those of the body that bears, with onChild
-/// those of the body that is borne: translations come before the rotation, or behind it, of which there is one
-/// then, since of several the angles would not say where the body is (SOFA adds up their increments).
-/// Bodies that nothing bears stay where they are given. A child without positions gets as many bodies as
-/// centers name.
+/// A value moves all bodies behind it: w = d_i q_i', c' = d_i x (c - center) q_i', or c' = d_i q_i'. Its
+/// force is that of the bodies along this. With articulationProcess onParent all axes are those of the body
+/// that bears, with onChild those of the body that is borne: translations come before the rotation, or behind
+/// it, of which there is one then, since of several the angles would not say where the body is (SOFA adds up
+/// their increments). Bodies that nothing bears stay where they are given. A child without positions gets as
+/// many bodies as centers name.
 ///
-/// The mass of the bodies moves the values by J' M J, and by the forces -J' M (dJ/dt) q', Coriolis' and centrifugal
-/// ones, which SOFA leaves out: together with gyroscopic torques the equations are those of Lagrange (Featherstone,
-/// Rigid Body Dynamics Algorithms, 2008). `geometricStiffness` adds, for i before j and a rotation, with f and t of
-/// all bodies behind j,
+/// The mass of the bodies moves the values by J' M J, and by the forces -J' M (dJ/dt) q', Coriolis' and
+/// centrifugal ones, which SOFA leaves out: together with gyroscopic torques the equations are those of
+/// Lagrange (Featherstone, Rigid Body Dynamics Algorithms, 2008). `geometricStiffness` adds, for i before j
+/// and a rotation, with f and t of all bodies behind j,
 ///   K_g(i, j) = d_i.w_j,   w_j = sum (d_j.f) (x - p_j) - (f.(x - p_j)) d_j + 1/2 d_j x t,   or d_j x f
 /// which leaves out the part that torques add to the one triangle and take from the other. SOFA has none.
 template <class I, class O>
@@ -107,8 +107,8 @@ struct ArticulatedSystemMapping {
 
 /// The same on a moving base: the first body is one of a second parent, by number, and moves the others with
 /// it. In scene files it is an ArticulatedSystemMapping with an input2. Both parents stand before the node of
-/// the mapping in the tree; they are named by paths from it (`P` = Parents<"..", "../../base">), or at run time (`P` =
-/// LinkedParents).
+/// the mapping in the tree; they are named by paths from it (`P` = Parents<"..", "../../base">), or at run
+/// time (`P` = LinkedParents).
 ///   J of the base: c' + w x (x - c), w      K_g: w_j between the angle of the base and value j
 template <class I, class R, class O, class P = LinkedParents>
 struct RootedArticulatedSystemMapping {
@@ -142,9 +142,9 @@ struct RootedArticulatedSystemMapping {
   }
 
   ArticulatedBodies<In, Out> bodies{};
-  int root = 0;                  // of the second parent
-  std::vector<int> carried{};    // bodies that the base moves, itself the first
-  typename In::VecCoord values{};  // at the last apply of the first part
+  int root = 0;                              // of the second parent
+  std::vector<int> carried{};                // bodies that the base moves, itself the first
+  typename In::VecCoord values{};            // at the last apply of the first part
   Vec<Real, 3> turn = Vec<Real, 3>::Zero();  // those of the last gather
   typename In::VecDeriv motions{};
 
@@ -220,9 +220,8 @@ struct RootedArticulatedSystemMapping {
     void addKx(typename In::VecDeriv& df, typename In::VecDeriv const&, double k) const {
       if (!of.hasStiffness()) return;
       Vec<Real, 3> sum = of.bodies.turning(0) * of.turn;
-      of.bodies.forEachTurned(0, [&](int value, auto const& turned) {
-        sum += turned * Real(of.motions[std::size_t(value)][0]);
-      });
+      of.bodies.forEachTurned(
+          0, [&](int value, auto const& turned) { sum += turned * Real(of.motions[std::size_t(value)][0]); });
       df[std::size_t(of.root)].template tail<3>() += (Real(k) * sum).template cast<typename In::Real>();
     }
     std::vector<bool> pointsThatStay(Renumbering const&) const {

@@ -22,9 +22,17 @@ void prepare_articulated(M& c, Random& random) {
     one.posOnChild = vector<Eigen::Vector3d>(random);
     c.centers.push_back(one);
   }
-  static constexpr std::pair<bool, bool> kinds[] = {
-      {true, false}, {false, true}, {true, false}, {true, false}, {false, true}, {false, true}, {true, false},
-      {false, true}, {true, true}, {true, false}, {false, false}};
+  static constexpr std::pair<bool, bool> kinds[] = {{true, false},
+                                                    {false, true},
+                                                    {true, false},
+                                                    {true, false},
+                                                    {false, true},
+                                                    {false, true},
+                                                    {true, false},
+                                                    {false, true},
+                                                    {true, true},
+                                                    {true, false},
+                                                    {false, false}};
   static constexpr int center[] = {4, 4, 4, 3, 3, 2, 2, 2, 1, 1, 0};
   for (int a = 0; a < 11; ++a)
     c.articulations.push_back({center[a],

@@ -18,8 +18,8 @@ namespace detail {
 
 /// Joints of articulated systems, as SOFA has them: an ArticulatedHierarchyContainer beside nodes, in each of
 /// which an ArticulationCenter is, and below it its Articulations. They are the lists `centers` and
-/// `articulations` of the ArticulatedSystemMapping that finds the container: by a link, or in or below the node
-/// of its first input. Nodes that held nothing else are left out.
+/// `articulations` of the ArticulatedSystemMapping that finds the container: by a link, or in or below the
+/// node of its first input. Nodes that held nothing else are left out.
 class Articulations {
  public:
   static constexpr std::string_view className = "ArticulatedSystemMapping";
@@ -106,8 +106,7 @@ class Articulations {
           try {
             read_value(a.value, value);
           } catch (Error const& error) {
-            messages_.addError(element.place(a),
-                               text('<', element.tag, ">: ", a.name, ": ", error.what()));
+            messages_.addError(element.place(a), text('<', element.tag, ">: ", a.name, ": ", error.what()));
           }
         });
       if (!part && a.name == "filename") {
@@ -168,7 +167,8 @@ class Articulations {
     const auto words = read_link(link.value);
     if (!words) return nullptr;
     const std::size_t slash = words->path.rfind('/');
-    const std::string_view name = std::string_view(words->path).substr(slash == words->path.npos ? 0 : slash + 1);
+    const std::string_view name =
+        std::string_view(words->path).substr(slash == words->path.npos ? 0 : slash + 1);
     auto in = [&](ScenePlace const* place, std::string_view of) -> Container* {
       for (Container& c : containers_)
         if (c.place == place && (c.name == of || tags[0] == of)) return &c;
@@ -213,11 +213,10 @@ class Articulations {
   static bool onlyJoints(ScenePlace const& place) {
     auto const& children = place.element->children;
     return place.items.empty() && !place.visual && !children.empty() &&
-           std::all_of(children.begin(),
-                       children.end(),
-                       [](XmlElement const& e) {
-                         return e.tag == "Node" || dialect::has(tags, tag_of(e));
-                       }) &&
+           std::all_of(
+               children.begin(),
+               children.end(),
+               [](XmlElement const& e) { return e.tag == "Node" || dialect::has(tags, tag_of(e)); }) &&
            std::all_of(place.children.begin(), place.children.end(), [](auto const& child) {
              return onlyJoints(*child);
            });
