@@ -129,4 +129,24 @@ TEST_CASE("joints that are wrong are named with their place") {
              Contains("<Articulation>: stands below no <ArticulationCenter>"));
 }
 
+TEST_CASE("springs to the place of a state that moves are refused, unless a constraint holds all of it") {
+  auto with = [](std::string const& constraint, std::string const& more = "") {
+    return error(
+        text("<Node><EulerImplicitSolver/><CGLinearSolver/><Node name='held'><MechanicalObject name='dofs' ",
+             "position='1 0 0'",
+             more,
+             "/>",
+             constraint,
+             "</Node><Node><MechanicalObject position='0 0 0'/><UniformMass/><RestShapeSpringsForceField ",
+             "points='0' stiffness='3' external_rest_shape='@../held/dofs'/></Node></Node>"));
+  };
+  const std::string refused = "but springs are to a place that stays";
+  CHECK_THAT(with(""), Contains(refused));
+  CHECK(with("<FixedProjectiveConstraint indices='0'/>").empty());
+  CHECK(with("<PartialFixedProjectiveConstraint fixAll='1' fixedDirections='1 1 1'/>").empty());
+  CHECK_THAT(with("<PartialFixedProjectiveConstraint indices='0' fixedDirections='1 0 1'/>"),
+             Contains(refused));
+  CHECK_THAT(with("<FixedProjectiveConstraint indices='0'/>", " velocity='1 0 0'"), Contains(refused));
+}
+
 }  // namespace test_articulations
