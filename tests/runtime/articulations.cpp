@@ -108,6 +108,19 @@ TEST_CASE("without a second input bodies hang where the first one is given") {
             .norm() < 1e-14);
 }
 
+TEST_CASE("a constraint on a body that does not move is left out, one on another is an error") {
+  auto held = [](std::string_view index, std::string_view input2) {
+    std::string scene = with("input2=\"@../../base/dofs\"", input2);
+    const std::string_view at = "<UniformMass vertexMass=\"0.5\"/>";
+    return scene.insert(scene.find(at), text("<FixedProjectiveConstraint indices=\"", index, "\"/>"));
+  };
+  const auto read = parse_scene<Standard>("arm.scn", held("0", ""));
+  REQUIRE(read.warnings.size() == 1);
+  CHECK_THAT(read.warnings[0], Contains("<FixedProjectiveConstraint> is left out"));
+  CHECK_THAT(error(held("1", "")), Contains("acts on a mapped state"));
+  CHECK_THAT(error(held("0", "input2=\"@../../base/dofs\"")), Contains("acts on a mapped state"));
+}
+
 TEST_CASE("joints that are wrong are named with their place") {
   CHECK_THAT(error(with("childIndex=\"2\"", "childIndex=\"two\"")),
              Contains("arm.scn:26") && Contains("<ArticulationCenter>: childIndex"));

@@ -47,6 +47,7 @@ class Articulations {
     for_each_item(top, [&](SceneItem& item) {
       if (item.candidates[0]->name == className) give(item);
     });
+    for (SceneItem* held : holding_) leaveOut(*held);
     for (Container const& c : containers_)
       if (!c.used)
         messages_.warnings.insert(text(c.element->place(),
@@ -77,6 +78,7 @@ class Articulations {
   SceneMessages& messages_;
   std::vector<Container> containers_{};
   std::vector<Center> centers_{};
+  std::vector<SceneItem*> holding_{};  // constraints on bodies that do not move
 
   // of the nearest center upwards, which stands before it in the file
   void addArticulation(ScenePlace& place, XmlElement& element) {
@@ -142,8 +144,40 @@ class Articulations {
     if (centers.empty())
       messages_.addError(*container->element,
                          text("there is no <", tags[1], "> in its node or below; add one for each joint"));
+    auto const* const second = item.element->attribute("input2");
+    if (!second || !is_link(second->value)) findHolding(*item.place, centers);
     item.element->set("centers", write_value(centers));
     item.element->set("articulations", write_value(articulations));
+  }
+  // projective constraints hold bodies that nothing bears, in SOFA's scenes, which stay where they are anyway
+  void findHolding(ScenePlace const& place, std::vector<ArticulationCenter> const& centers) {
+    for (auto const& other : place.items) {
+      const std::string_view name = other->candidates[0]->name;
+      auto const* const indices = other->element->attribute("indices");
+      if ((name != "FixedConstraint" && name != "PartialFixedConstraint") ||
+          other->element->attribute("fixAll"))
+        continue;
+      std::vector<int> held{0};
+      try {
+        if (indices) read_value(indices->value, held);
+      } catch (Error const&) {
+        continue;  // is said where attributes are read
+      }
+      if (std::none_of(centers.begin(), centers.end(), [&](ArticulationCenter const& c) {
+            return std::find(held.begin(), held.end(), c.childIndex) != held.end();
+          }))
+        holding_.push_back(other.get());
+    }
+  }
+  void leaveOut(SceneItem& item) {
+    messages_.warnings.insert(text(item.element->place(),
+                                   ": <",
+                                   item.tag,
+                                   "> is left out: the bodies that it holds are borne by no center, and stay "
+                                   "where they are"));
+    auto& items = item.place->items;
+    items.erase(
+        std::find_if(items.begin(), items.end(), [&](auto const& other) { return other.get() == &item; }));
   }
   Container* find(SceneItem& item) {
     auto& attributes = item.element->attributes;
