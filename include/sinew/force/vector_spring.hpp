@@ -15,11 +15,10 @@
 namespace sinew {
 
 /// One spring of a VectorSpringForceField.
-template <class D>
 struct VectorSpring {
   int first = 0, second = 0;
   double stiffness = 1, damping = 1;
-  std::optional<Vec<double, D::size>> restVector{};
+  std::optional<Eigen::Vector3d> restVector{};
 
   static constexpr auto fields() {
     using S = VectorSpring;
@@ -91,10 +90,10 @@ struct VectorSpringForceField {
   using Role = std::conditional_t<between, role::InteractionForceField, role::ForceField>;
   using DataTypes = D;
   using Real = typename D::Real;
-  static_assert(!D::rigid, "Sinew: VectorSpringForceField is for points (Vec3d).");
+  static_assert(!D::rigid && D::size == 3, "Sinew: VectorSpringForceField is for points in space (Vec3d).");
   static constexpr std::string_view className = "VectorSpringForceField";
 
-  std::vector<VectorSpring<D>> springs{};
+  std::vector<VectorSpring> springs{};
   [[no_unique_address]] E ends{};
   double stiffness = 1, viscosity = 1;
   bool useTopology = false;
@@ -123,9 +122,9 @@ struct VectorSpringForceField {
     const std::string where = text(a.where, ": ", component_name<VectorSpringForceField>());
     std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
-    const std::vector<VectorSpring<D>> all = springs.empty() ? implied(where, a, b) : springs;
+    const std::vector<VectorSpring> all = springs.empty() ? implied(where, a, b) : springs;
     for (std::size_t s = 0; s < all.size(); ++s) {
-      VectorSpring<D> const& spring = all[s];
+      VectorSpring const& spring = all[s];
       check_spring_end(where, s, a, spring.first);
       check_spring_end(where, s, b, spring.second);
       if (!between && spring.first == spring.second)
@@ -142,14 +141,14 @@ struct VectorSpringForceField {
   }
 
  private:
-  std::vector<VectorSpring<D>> implied(std::string const& where, InitContext<D> const& a,
-                                       InitContext<D> const& b) const {
-    std::vector<VectorSpring<D>> all;
+  std::vector<VectorSpring> implied(std::string const& where, InitContext<D> const& a,
+                                    InitContext<D> const& b) const {
+    std::vector<VectorSpring> all;
     if (useTopology) {
       if (a.topology.edges.empty())
         throw Error(where, "useTopology is on, and the topology has no edges; give it some, or give springs");
       for (Edge const& e : a.topology.edges) {
-        VectorSpring<D> one{.first = e[0], .second = e[1], .stiffness = stiffness, .damping = viscosity};
+        VectorSpring one{.first = e[0], .second = e[1], .stiffness = stiffness, .damping = viscosity};
         if (e[0] >= 0 && e[1] >= 0 && std::size_t(std::max(e[0], e[1])) < a.rest.size())
           one.restVector = (a.rest[std::size_t(e[1])] - a.rest[std::size_t(e[0])]).template cast<double>();
         all.push_back(one);
@@ -169,7 +168,7 @@ struct VectorSpringForceField {
                          b.rest.size(),
                          " points; give springs one by one"));
       for (int i = 0; i < int(a.rest.size()); ++i)
-        all.push_back({i, i, stiffness, viscosity, Vec<double, D::size>::Zero().eval()});
+        all.push_back({i, i, stiffness, viscosity, Eigen::Vector3d(0, 0, 0)});
     }
     return all;
   }

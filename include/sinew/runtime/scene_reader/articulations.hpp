@@ -7,7 +7,6 @@
 #include <sinew/runtime/value_text.hpp>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -58,7 +57,8 @@ class Articulations {
                                        "> finds it; link to it, container=\"@",
                                        c.name,
                                        "\""));
-    for (ScenePlace* place : emptied()) prune(*place);
+    for (Container const& c : containers_)
+      std::erase_if(c.place->children, [](auto const& child) { return onlyJoints(*child); });
   }
 
  private:
@@ -237,29 +237,18 @@ class Articulations {
     return item.place->parent;
   }
 
-  std::vector<ScenePlace*> emptied() const {
-    std::vector<ScenePlace*> places;
-    for (Container const& c : containers_)
-      for (auto const& child : c.place->children) places.push_back(child.get());
-    return places;
-  }
   // whether nothing but centers and articulations was here and below
   static bool onlyJoints(ScenePlace const& place) {
     auto const& children = place.element->children;
     return place.items.empty() && !place.visual && !children.empty() &&
-           std::all_of(
-               children.begin(),
-               children.end(),
-               [](XmlElement const& e) { return e.tag == "Node" || dialect::has(tags, tag_of(e)); }) &&
+           std::all_of(children.begin(),
+                       children.end(),
+                       [](XmlElement const& e) {
+                         return e.tag == "Node" || tag_of(e) == tags[1] || tag_of(e) == tags[2];
+                       }) &&
            std::all_of(place.children.begin(), place.children.end(), [](auto const& child) {
              return onlyJoints(*child);
            });
-  }
-  static void prune(ScenePlace& place) {
-    if (!onlyJoints(place)) return;
-    auto& siblings = place.parent->children;
-    siblings.erase(std::find_if(
-        siblings.begin(), siblings.end(), [&](auto const& child) { return child.get() == &place; }));
   }
 };
 
