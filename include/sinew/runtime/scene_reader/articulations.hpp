@@ -117,8 +117,8 @@ class Articulations {
                              text('<',
                                   element.tag,
                                   ">: filename: centers and motions are not read from BVH files; write the "
-                                  "centers as elements, and move the angles by a TrajectoryController or a "
-                                  "constraint"));
+                                  "centers as elements, and move the angles by a "
+                                  "LinearMovementProjectiveConstraint"));
       } else if (!found) {
         messages_.addError(
             element.place(a),
