@@ -278,6 +278,19 @@ struct RootedArticulatedSystemMapping {
     });
   }
 
+  /// Values and base are numbered anew. Throws Error where one of them goes.
+  void follow(Renumbering const&, std::vector<Renumbering const*> const& above) {
+    auto renumber = [&](std::size_t parent, int& number, std::string_view what) {
+      if (!above[parent]->stays(number))
+        throw Error(component_name<Self>(),
+                    text(what, " ", number, " is to go, which moves articulated bodies; leave it there"));
+      above[parent]->renumber(number);
+    };
+    for (Articulation& a : articulations) renumber(0, a.articulationIndex, "value");
+    renumber(1, root, "base");
+    indexInput2 = root;
+  }
+
   bool hasStiffness() const { return geometricStiffness != RotationalStiffness::none; }
   Mat<Real, 6> jacobian(int body) const {
     return Frame::jacobian(bodies.bodies[std::size_t(body)].center - bodies.bodies[0].center);

@@ -51,7 +51,8 @@ struct Articulation {
     using A = Articulation;
     return field_list(
         field("center", &A::center, "", "the center, by its number in `centers`", range::nonNegative),
-        field("articulationIndex", &A::articulationIndex, "", "the value that moves it", range::nonNegative),
+        field("articulationIndex", &A::articulationIndex, "", "the value that moves it", range::nonNegative)
+            .numbersOf(Of::parentPoints),
         field("rotation", &A::rotation, "", "the value is an angle [rad] about the axis"),
         field("translation", &A::translation, "", "the value is a length [m] along the axis"),
         field("axis", &A::axis, "", "axis, of any length but 0").also("rotationAxis"));

@@ -35,7 +35,7 @@ inline bool is_held(ScenePlace const& owner) {
     if (item->info->name == "PartialFixedConstraint") {
       std::size_t directions = 0, held = 0;
       for (Words words(valueOf(*item, "fixedDirections")); !words.end(); ++directions)
-        held += on(words.next()) ? 1 : 0;
+        held += std::size_t(on(words.next()));
       if (held != directions) return false;
     }
     if (on(Words(valueOf(*item, "fixAll")).rest())) return true;
