@@ -141,7 +141,8 @@ class Articulations {
       }
       centers.push_back(c.value);
     }
-    if (centers.empty())
+    auto const* const file = container->element->attribute("filename");
+    if (centers.empty() && (!file || file->value.empty()))
       messages_.addError(*container->element,
                          text("there is no <", tags[1], "> in its node or below; add one for each joint"));
     auto const* const second = item.element->attribute("input2");
