@@ -136,7 +136,7 @@ using MeasuringMappings =
 // bodies joined by hinges and slides, alone or on a base
 template <class In, class Out>
 using ArticulatedMappings =
-    Registry<ArticulatedSystemMapping<In, Out>, RootedArticulatedSystemMapping<In, Out, Out>>;
+    Registry<ArticulatedSystemMapping<In, Out>, ArticulatedSystemMapping<In, Out, Out, LinkedParents>>;
 using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
                                SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
                                SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,

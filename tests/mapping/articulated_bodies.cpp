@@ -13,7 +13,7 @@ using namespace sinew;
 using Catch::Matchers::Contains;
 
 using Mapping = ArticulatedSystemMapping<Vec1d, Rigid3d>;
-using Rooted = RootedArticulatedSystemMapping<Vec1d, Rigid3d, Rigid3d>;
+using Rooted = ArticulatedSystemMapping<Vec1d, Rigid3d, Rigid3d, LinkedParents>;
 using P = ArticulationProcess;
 
 Vec1d::VecCoord numbers(std::initializer_list<double> list) {

@@ -124,7 +124,7 @@ TEST_CASE("a double pendulum follows the equations of Lagrange, with its energy"
 }
 
 TEST_CASE("a body with an arm that flies freely keeps its momentum") {
-  using Rooted = RootedArticulatedSystemMapping<Vec1d, Rigid3d, Rigid3d, Parents<"..", "../../base">>;
+  using Rooted = ArticulatedSystemMapping<Vec1d, Rigid3d, Rigid3d, Parents<"..", "../../base">>;
   auto change = [&](int steps) {
     Rooted mapping;
     mapping.centers = {{0, 1, {0.5, 0, 0}, {-0.5, 0, 0}}, {1, 2, {0.5, 0, 0}, {-0.5, 0, 0}}};

@@ -123,7 +123,7 @@ TEST_CASE("a constraint on a body that does not move is left out, one on another
 
 TEST_CASE("joints that are wrong are named with their place") {
   CHECK_THAT(error(with("childIndex=\"2\"", "childIndex=\"two\"")),
-             Contains("arm.scn:26") && Contains("<ArticulationCenter>: childIndex"));
+             Contains("arm.scn:25") && Contains("<ArticulationCenter>: childIndex"));
   CHECK_THAT(error(with("posOnParent=\"0 -0.5 0\"", "posOnParnt=\"0 -0.5 0\"")),
              Contains("<ArticulationCenter> has no attribute 'posOnParnt'") && Contains("posOnParent"));
   CHECK_THAT(error(with("axis=\"0 0 1\" articulationIndex=\"1\"", "axis=\"0 0\" articulationIndex=\"1\"")),

@@ -55,12 +55,15 @@ constexpr auto articulated_fields(More... more) {
 /// and a rotation, with f and t of all bodies behind j,
 ///   K_g(i, j) = d_i.w_j,   w_j = sum (d_j.f) (x - p_j) - (f.(x - p_j)) d_j + 1/2 d_j x t,   or d_j x f
 /// which leaves out the part that torques add to the one triangle and take from the other. SOFA has none.
-template <class I, class O>
+template <class I, class O, class... Base>
 struct ArticulatedSystemMapping {
   using Role = role::Mapping;
   using In = I;
   using Out = O;
   using Real = typename Out::Real;
+  static_assert(sizeof...(Base) == 0,
+                "ArticulatedSystemMapping on a base is that over <Vec1d, Rigid3d, Rigid3d, Parents<...>>, or "
+                "LinkedParents");
   static_assert(!In::rigid && In::size == 1 && Out::rigid && Out::spatial == 3,
                 "ArticulatedSystemMapping makes rigid bodies in space of numbers");
   static constexpr std::string_view className = "ArticulatedSystemMapping";
@@ -110,20 +113,20 @@ struct ArticulatedSystemMapping {
 /// the mapping in the tree; they are named by paths from it (`P` = Parents<"..", "../../base">), or at run
 /// time (`P` = LinkedParents).
 ///   J of the base: c' + w x (x - c), w      K_g: w_j between the angle of the base and value j
-template <class I, class R, class O, class P = LinkedParents>
-struct RootedArticulatedSystemMapping {
+template <class I, class R, class O, class P>
+struct ArticulatedSystemMapping<I, R, O, P> {
   using Role = role::Mapping;
   using In = I;
   using In2 = R;
   using Out = O;
   using Parents = P;
   template <class Other>
-  using WithParents = RootedArticulatedSystemMapping<I, R, O, Other>;
+  using WithParents = ArticulatedSystemMapping<I, R, O, Other>;
   using Real = typename Out::Real;
   using Frame = RigidFrame<In2, Out>;
   static_assert(!In::rigid && In::size == 1 && Out::rigid && Out::spatial == 3 && In2::rigid &&
                     In2::spatial == 3,
-                "RootedArticulatedSystemMapping makes rigid bodies in space of numbers and of a rigid body");
+                "ArticulatedSystemMapping makes rigid bodies in space of numbers and of a rigid body");
   static constexpr std::string_view className = "ArticulatedSystemMapping";
 
   std::vector<ArticulationCenter> centers{};
@@ -133,9 +136,9 @@ struct RootedArticulatedSystemMapping {
   [[no_unique_address]] P parents{};
 
   static constexpr auto fields() {
-    return articulated_fields<RootedArticulatedSystemMapping>(
+    return articulated_fields<ArticulatedSystemMapping>(
         field("indexInput2",
-              &RootedArticulatedSystemMapping::indexInput2,
+              &ArticulatedSystemMapping::indexInput2,
               "",
               "the rigid body of the second parent that is the base; none: the last one",
               range::nonNegative));
@@ -228,7 +231,7 @@ struct RootedArticulatedSystemMapping {
       return std::vector<bool>(of.bodies.bodies.size(), true);
     }
   };
-  using Self = RootedArticulatedSystemMapping;
+  using Self = ArticulatedSystemMapping;
   Values<Self> part(ParentNumber<0>) { return {*this}; }
   Base<Self> part(ParentNumber<1>) { return {*this}; }
   Values<Self const> part(ParentNumber<0>) const { return {*this}; }

@@ -44,11 +44,7 @@ void prepare_articulated(M& c, Random& random) {
 template <class... A>
 void prepare(ArticulatedSystemMapping<A...>& c, Random& random) {
   prepare_articulated(c, random);
-}
-template <class... A>
-void prepare(RootedArticulatedSystemMapping<A...>& c, Random& random) {
-  prepare_articulated(c, random);
-  c.indexInput2 = random.index(9);
+  if constexpr (requires { c.indexInput2; }) c.indexInput2 = random.index(9);
 }
 
 }  // namespace sample
