@@ -90,6 +90,7 @@
 #include <sinew/force/reaction.hpp>
 #include <sinew/force/viscoelastic_material.hpp>
 #include <sinew/lagrangian/compliance_file.hpp>
+#include <sinew/mapping/articulated_bodies.hpp>
 #include <sinew/mapping/particle_surface.hpp>
 #include <sinew/scene/path.hpp>
 #include <sinew/scene/profile_report.hpp>

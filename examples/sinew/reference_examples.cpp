@@ -476,6 +476,15 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField",
      Place::beside},
+    {"FrameSpringForceField", R"(
+<Node name="links" gravity="0 -9.81 0">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject template="Rigid3d" position="0.5 0 0  0 0 0 1   1.5 0 0  0 0 0 1"/>
+  <UniformMass vertexMass="1 1  0.01 0 0  0 0.1 0  0 0 0.1"/>
+  <FixedConstraint indices="0"/>
+  <FrameSpringForceField spring="BEGIN_SPRING 0 1 KS_T 20000 KS_R 200 KD 1 VEC1 0.5 0 0 VEC2 -0.5 0 0 END_SPRING"/>
+</Node>)"},
     {"GearSpringForceField", R"(
 <Node name="gears" gravity="0 0 0">
   <EulerImplicitSolver/>
@@ -579,6 +588,13 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      "TetrahedronFEMForceField",
      Place::beside},
     {"MeshSpringForceField", R"(<MeshSpringForceField stiffness="2000" damping="1"/>)"},
+    {"OscillatingTorsionPressureForceField",
+     R"(
+<OscillatingTorsionPressureForceField moment="0.5" axis="0 0 1" center="0.5 0.5 0" frequency="2" penalty="5"
+                                      triangleList="8 9 10 11"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
     {"PlaneForceField",
      R"(<PlaneForceField normal="0 1 0" d="-0.05" stiffness="500" damping="5"/>)",
      softBody,
@@ -619,6 +635,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      sheet,
      "TriangleFEMForceField"},
     {"RegularGridSpringForceField", R"(<RegularGridSpringForceField stiffness="200" damping="1"/>)"},
+    {"RepulsiveSpringForceField",
+     R"(<RepulsiveSpringForceField springsIndices1="0" springsIndices2="2" stiffness="40" damping="0.2" lengths="0.9"/>)",
+     chain,
+     "StiffSpringForceField",
+     Place::beside},
     {"RestShapeSpringsForceField",
      R"(<RestShapeSpringsForceField points="0" stiffness="200"/>)",
      chain,
@@ -718,6 +739,11 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <TetrahedronHyperelasticityFEMForceField materialName="NeoHookean" ParameterSet="20000 30000"/>)"},
     {"TetrahedronViscoelasticityFEMForceField", R"(
 <TetrahedronViscoelasticityFEMForceField materialName="SLSMaxwellFirstOrder" ParameterSet="20000 10000 0.1 30000"/>)"},
+    {"TorsionForceField",
+     R"(<TorsionForceField indices="20 21 22 23" torque="0.5" axis="0 1 0" origin="0 0 0"/>)",
+     sheet,
+     "TriangleFEMForceField",
+     Place::beside},
     {"TriangleBendingSprings",
      R"(
 <MeshSpringForceField stiffness="50" damping="0.1"/>
@@ -788,6 +814,10 @@ constexpr auto classExamples = std::to_array<ClassExample>({
      chain,
      "StiffSpringForceField",
      Place::beside},
+    {"VectorSpringForceField",
+     R"(<VectorSpringForceField springs="0 1 100 1 auto  1 2 100 1 auto"/>)",
+     chain,
+     "StiffSpringForceField"},
     {"VirtualCoupling", R"(
 <Node name="tool">
   <EulerImplicitSolver/>
@@ -936,6 +966,26 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 </Node>)"},
 
     {"AdaptiveBeamMapping", "", rod, ""},
+    {"ArticulatedSystemMapping", R"(
+<Node name="pendulum" gravity="0 -9.81 0">
+  <EulerImplicitSolver/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <MechanicalObject name="angles" template="Vec1" position="1.2 0.8"/>
+  <Node name="rods">
+    <MechanicalObject name="bodies" template="Rigid3"/>
+    <UniformMass vertexMass="0.8 1  0.125 0 0  0 0.125 0  0 0 0.125"/>
+    <ArticulatedSystemMapping input1="@../angles" output="@bodies"/>
+  </Node>
+  <ArticulatedHierarchyContainer/>
+  <Node name="upper">
+    <ArticulationCenter parentIndex="0" childIndex="1" posOnParent="0 0 0" posOnChild="0 1 0"/>
+    <Node name="hinge"><Articulation rotation="1" rotationAxis="0 0 1" articulationIndex="0"/></Node>
+  </Node>
+  <Node name="lower">
+    <ArticulationCenter parentIndex="1" childIndex="2" posOnParent="0 -1 0" posOnChild="0 1 0"/>
+    <Node name="hinge"><Articulation rotation="1" rotationAxis="0 0 1" articulationIndex="1"/></Node>
+  </Node>
+</Node>)"},
     {"BarycentricMapping", "", carrier, ""},
     {"BeamLinearMapping",
      R"(

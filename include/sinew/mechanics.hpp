@@ -41,6 +41,7 @@
 #include <sinew/force/ellipsoid_force_field.hpp>
 #include <sinew/force/fast_triangular_bending_springs.hpp>
 #include <sinew/force/fluid_boundary.hpp>
+#include <sinew/force/frame_spring.hpp>
 #include <sinew/force/gear_spring.hpp>
 #include <sinew/force/hexahedron_composite_fem.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
@@ -49,6 +50,7 @@
 #include <sinew/force/joint_spring.hpp>
 #include <sinew/force/linear_force_field.hpp>
 #include <sinew/force/mesh_spring.hpp>
+#include <sinew/force/oscillating_torsion_pressure.hpp>
 #include <sinew/force/particles_repulsion.hpp>
 #include <sinew/force/plane_force_field.hpp>
 #include <sinew/force/polynomial_rest_shape_springs.hpp>
@@ -59,6 +61,7 @@
 #include <sinew/force/quadratic_hexahedron_fem.hpp>
 #include <sinew/force/quadratic_tetrahedron_fem.hpp>
 #include <sinew/force/regular_grid_spring.hpp>
+#include <sinew/force/repulsive_spring.hpp>
 #include <sinew/force/rest_shape_springs.hpp>
 #include <sinew/force/solid_element_fem.hpp>
 #include <sinew/force/sph_fluid.hpp>
@@ -71,6 +74,7 @@
 #include <sinew/force/tetrahedron_hyperelasticity.hpp>
 #include <sinew/force/tetrahedron_reaction.hpp>
 #include <sinew/force/tetrahedron_viscoelasticity.hpp>
+#include <sinew/force/torsion_force_field.hpp>
 #include <sinew/force/triangle_fem.hpp>
 #include <sinew/force/triangular_biquadratic_springs.hpp>
 #include <sinew/force/triangular_quadratic_springs.hpp>
@@ -78,9 +82,11 @@
 #include <sinew/force/triangular_tensor_mass.hpp>
 #include <sinew/force/triquadratic_hexahedron_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
+#include <sinew/force/vector_spring.hpp>
 #include <sinew/force/virtual_coupling.hpp>
 #include <sinew/mapping/adaptive_beam_mapping.hpp>
 #include <sinew/mapping/area_mapping.hpp>
+#include <sinew/mapping/articulated_system_mapping.hpp>
 #include <sinew/mapping/barycentric_mapping.hpp>
 #include <sinew/mapping/beam_linear_mapping.hpp>
 #include <sinew/mapping/center_of_mass_mapping.hpp>

@@ -35,7 +35,7 @@ template <class D>
 using PointLoads = Registry<RigidLoads<D>, SphereForceField<D>>;
 template <class D>
 using SpatialLoads = Registry<ConicalForceField<D>, TaitSurfacePressureForceField<D>, EllipsoidForceField<D>,
-                              InteractionEllipsoidForceField<D>>;
+                              InteractionEllipsoidForceField<D>, TorsionForceField<D>>;
 template <class D>
 using Particles = Registry<ParticleSource<D>, ParticleSink<D>>;
 template <class D>
@@ -47,9 +47,9 @@ using ElementForces =
              PyramidFEMForceField<D>, PrismFEMForceField<D>, QuadraticTetrahedronFEMForceField<D>,
              QuadraticHexahedronFEMForceField<D>, TriquadraticHexahedronFEMForceField<D>,
              TriangleFEMForceField<D>, SurfacePressureForceField<D>, TrianglePressureForceField<D>,
-             QuadPressureForceField<D>, EdgePressureForceField<D>, TriangularQuadraticSpringsForceField<D>,
-             TriangularBiquadraticSpringsForceField<D>, TriangularTensorMassForceField<D>,
-             QuadBendingFEMForceField<D>>;
+             QuadPressureForceField<D>, EdgePressureForceField<D>, OscillatingTorsionPressureForceField<D>,
+             TriangularQuadraticSpringsForceField<D>, TriangularBiquadraticSpringsForceField<D>,
+             TriangularTensorMassForceField<D>, QuadBendingFEMForceField<D>>;
 template <class D>
 using HyperelasticForces =
     Registry<TetrahedronHyperelasticityFEMForceField<D>, TetrahedronViscoelasticityFEMForceField<D>>;
@@ -57,7 +57,9 @@ template <class D>
 using SpatialSprings =
     Registry<TriangularBendingSprings<D>, TriangleBendingSprings<D>, QuadularBendingSprings<D>,
              QuadBendingSprings<D>, FastTriangularBendingSprings<D>, PolynomialSpringsForceField<D>,
-             PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>>;
+             PolynomialSpringsForceField<D, Linked>, PolynomialRestShapeSpringsForceField<D>,
+             RepulsiveSpringForceField<D>, RepulsiveSpringForceField<D, Linked>, VectorSpringForceField<D>,
+             VectorSpringForceField<D, Linked>>;
 template <class D>
 using FrameElements = Registry<BeamFEMForceField<D>, BeamMass<D>, TriangularShellForceField<D>>;
 // wires
@@ -67,9 +69,10 @@ using Rods = Registry<AdaptiveBeamForceField<D>, AdaptiveBeamMass<D>, Interventi
                       RodSpireSection, AdaptiveBeamMapping<D, Vec3d>>;
 template <class D>
 using SpatialRigids =
-    Registry<AngularSpringForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
-             GearSpringForceField<D>, GearSpringForceField<D, Linked>, JointSpringForceField<D>,
-             JointSpringForceField<D, Linked>, StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
+    Registry<AngularSpringForceField<D>, TorsionForceField<D>, FixedRotationConstraint<D>, FrameElements<D>,
+             FrameSpringForceField<D>, FrameSpringForceField<D, Linked>, GearSpringForceField<D>,
+             GearSpringForceField<D, Linked>, JointSpringForceField<D>, JointSpringForceField<D, Linked>,
+             StiffSpringForceField<D>, StiffSpringForceField<D, Linked>,
              PatchTestMovementProjectiveConstraint<D>>;
 template <class D>
 using PointConstraints =
@@ -136,12 +139,17 @@ using MeasuringMappings =
              DistanceFromTargetMapping<Vec3d, Vec1d>, DistanceFromTargetMapping<Rigid3d, Vec1d>,
              DistanceToPlaneMapping<Vec3d, Vec1d>, DistanceToPlaneMapping<Rigid3d, Vec1d>,
              SquareMapping<Vec1d, Vec1d>>;
-using MultiMappings = Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
-                               SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
-                               SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
-                               IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>,
-                               DistanceMultiMapping<Vec3d, Vec1d>, DistanceMultiMapping<Rigid3d, Vec1d>,
-                               DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>>;
+// bodies joined by hinges and slides, alone or on a base
+template <class In, class Out>
+using ArticulatedMappings =
+    Registry<ArticulatedSystemMapping<In, Out>, ArticulatedSystemMapping<In, Out, Out, LinkedParents>>;
+using MultiMappings =
+    Registry<SubsetMultiMapping<Vec3d, Vec3d>, SubsetMultiMapping<Vec2d, Vec2d>,
+             SubsetMultiMapping<Vec1d, Vec1d>, SubsetMultiMapping<Rigid3d, Rigid3d>,
+             SubsetMultiMapping<Rigid3d, Vec3d>, SubsetMultiMapping<Vec3d, Vec3f>,
+             IdentityMultiMapping<Vec3d, Vec3d>, IdentityMultiMapping<Rigid3d, Rigid3d>,
+             DistanceMultiMapping<Vec3d, Vec1d>, DistanceMultiMapping<Rigid3d, Vec1d>,
+             DeformableOnRigidFrameMapping<Vec3d, Rigid3d, Vec3d>, ArticulatedMappings<Vec1d, Rigid3d>>;
 using SurfaceMappings = Registry<SPHFluidSurfaceMapping<Vec3d, Vec3f>>;
 using SkinningMappings = Registry<SkinningMapping<Rigid3d, Vec3d>, SkinningMapping<Rigid3d, Vec3f>>;
 using StandardMappings =
@@ -185,14 +193,14 @@ using PlacingEngines =
 template <class D>
 using SpatialEngines = Registry<Regions<D>, PlaneROI<D>, TransformEngine<D>, SubsetTopology<D>>;
 using StandardEngines =
-    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, MeshPLYLoader, GIDMeshLoader,
-             MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines, PlacingEngines,
-             GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping, Hexa2PrismTopologicalMapping,
-             Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping, Quad2TriangleTopologicalMapping,
-             Triangle2EdgeTopologicalMapping, Edge2QuadTopologicalMapping, Mesh2PointTopologicalMapping,
-             SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>, PointsFromIndices<Vec3d>,
-             ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>, SpatialEngines<Rigid3d>,
-             BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
+    Registry<MeshGmshLoader, MeshOBJLoader, MeshSTLLoader, MeshVTKLoader, MeshOffLoader, MeshPLYLoader,
+             GIDMeshLoader, MeshTrianLoader, VoxelGridLoader, SphereLoader, MeshEngines, ListEngines,
+             PlacingEngines, GenerateRigidMass<Rigid3d>, Hexa2TetraTopologicalMapping,
+             Hexa2PrismTopologicalMapping, Tetra2TriangleTopologicalMapping, Hexa2QuadTopologicalMapping,
+             Quad2TriangleTopologicalMapping, Triangle2EdgeTopologicalMapping, Edge2QuadTopologicalMapping,
+             Mesh2PointTopologicalMapping, SimpleTesselatedTetraTopologicalMapping, SpatialEngines<Vec3d>,
+             PointsFromIndices<Vec3d>, ClusteringEngine<Vec3d>, ShapeMatching<Vec3d>, Regions<Vec3f>,
+             SpatialEngines<Rigid3d>, BoxROI<Vec1d>, Regions<Vec2d>, Regions<Rigid2d>>;
 using StandardTopologies =
     Registry<TetrahedronTopology, MeshTopology, RegularGridTopology, SparseGridTopology,
              SparseGridRamificationTopology, SparseGridMultipleTopology, SurfaceSampling>;

@@ -242,8 +242,8 @@ struct OfOneParent : M {
   };
 };
 
-/// The points of one parent among those of all; over D, where those of all are over In, or their centres are
-/// these points.
+/// The points of one parent among those of all; over D, where those of all are over In, or their centres, or
+/// first coordinates of these, are these points.
 template <class In, class D>
 struct Cut {
   int first, count;
@@ -254,7 +254,7 @@ struct Cut {
       if constexpr (std::is_same_v<In, D>)
         own.push_back(all[std::size_t(i)]);
       else
-        own.push_back(In::center(all[std::size_t(i)]));
+        own.push_back(In::center(all[std::size_t(i)]).template head<D::size>());
     return own;
   }
   typename D::VecDeriv derivs(typename In::VecDeriv const& all) const {

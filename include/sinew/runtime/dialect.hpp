@@ -183,6 +183,8 @@ constexpr ClassesLeftOut const* left_out(auto const& list, std::string_view tag)
 inline constexpr std::array notYet = std::to_array<ClassesLeftOut>(
     {{"CylinderModel RayModel RayCollisionModel",
       "collides with nothing here; take triangles, lines, points, spheres, capsules, boxes or convex hulls"},
+     {"ArticulatedHierarchyBVHController ArticulatedHierarchyController",
+      "is not there; move the angles of articulated bodies by a LinearMovementProjectiveConstraint"},
      {"DirectSAPNarrowPhase", "is no stage here; take BVHNarrowPhase, which finds the same pairs"},
      {"RayTraceDetection",
       "is two stages here, as it is in SOFA by now; take BruteForceBroadPhase and RayTraceNarrowPhase"}});
@@ -370,6 +372,10 @@ constexpr AnotherMethod const* another_method(std::string_view tag) {
     if (other.name == tag) return &other;
   return nullptr;
 }
+
+/// Joints of articulated bodies, which are lists of their mapping: what holds all, one, and its axes.
+inline constexpr std::array ofArticulations =
+    std::to_array<std::string_view>({"ArticulatedHierarchyContainer", "ArticulationCenter", "Articulation"});
 
 /// The implicit Euler solver of the first SOFA, which has its conjugate gradients in it.
 inline constexpr std::array implicitWithCG =

@@ -11,6 +11,16 @@
 
 namespace sinew {
 
+namespace detail {
+template <class M>
+constexpr bool has_velocity_products() {
+  if constexpr (HasParents<M>)
+    return HasVelocityProducts<PartOf<M>>;
+  else
+    return HasVelocityProducts<M>;
+}
+}  // namespace detail
+
 /// The mechanical states at and below a scope, `root`, that mappings move: motions go down to them, forces
 /// back up.
 template <class Root>
@@ -25,6 +35,22 @@ struct MappedStates {
   void propagate(DerivId v) const {
     [[maybe_unused]] const auto span = root.span(Phase::mapping);
     forEach([&](auto& mapping, auto& child, auto& parent) { mapping.applyJ(child[v], parent[v]); });
+  }
+
+  /// f of mapped states gets the inertial forces of masses in their nodes that are not those of M times the
+  /// acceleration of their parents.
+  void addInertialForces(DerivId f, CoordId x, DerivId v) const {
+    traverse(root, on<role::Mapping>([&](auto& mapping, [[maybe_unused]] auto const& scope) {
+               if constexpr (detail::has_velocity_products<std::decay_t<decltype(mapping)>>())
+                 withMechanicalChild(mapping, scope, [&](auto& m, auto& child, auto& parent) {
+                   if constexpr (HasVelocityProducts<std::decay_t<decltype(m)>>)
+                     scope.withMass([&](auto& mass) {
+                       if constexpr (std::is_same_v<typename std::decay_t<decltype(mass)>::DataTypes,
+                                                    typename std::decay_t<decltype(child)>::DataTypes>)
+                         mass.addMDx(child[f], child[x], m.velocityProducts(parent[v], child[v]), -1);
+                     });
+                 });
+             }));
   }
 
   /// f of mapped states, then complete, is added to that of their parents; mappings keep it for their

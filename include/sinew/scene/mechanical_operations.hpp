@@ -148,6 +148,7 @@ void MechanicalOperations<Root>::computeForce(DerivId f, CoordId x, DerivId v, d
   });
   forces().add(f, x, v, {.time = time, .dt = dt, .gyroscopicStep = gyroscopicStep});
   contacts().addForces(f, x, v);
+  mapped().addInertialForces(f, x, v);
   mapped().accumulate(f);
 }
 

@@ -126,6 +126,15 @@ template <class PartMapping>
 concept GathersParents =
     HasGeometricStiffness<PartMapping> &&
     requires(PartMapping m, typename PartMapping::In::VecDeriv const dx) { m.gather(dx); };
+/// A mapping may say what the change of J adds to the acceleration of its child: velocityProducts(v of its
+/// parent, v of its child) is (dJ/dt) v at the last apply, by which the mass in the node of the child makes
+/// the inertial forces -M (dJ/dt) v.
+template <class PartMapping>
+concept HasVelocityProducts =
+    HasInAndOut<PartMapping> && requires(PartMapping m, typename PartMapping::In::VecDeriv const vi,
+                                         typename PartMapping::Out::VecDeriv const vo) {
+      { m.velocityProducts(vi, vo) } -> std::convertible_to<typename PartMapping::Out::VecDeriv const&>;
+    };
 /// A mapping for which the elements of the topology in its node are over the points of its parent. Its points
 /// are elements of that topology, or of the parent's where the node has none: pointsThatStay(before, change)
 /// says which stay when elements are removed.

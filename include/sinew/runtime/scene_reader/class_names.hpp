@@ -21,6 +21,7 @@ enum class ElementKind {
   implicitWithCG,     // the same
   forceAndMass,       // the same
   compositePipeline,  // lists collision pipelines
+  articulation,       // joints of articulated bodies, and where they are
   component,          // of a class that the registry has, or should have
   withoutMeaning,     // is left out, as is all that follows
   inert,
@@ -43,6 +44,8 @@ struct SceneClassNames {
     if (dialect::force_and_mass(tag)) return ElementKind::forceAndMass;
     if (tag == "CompositeCollisionPipeline" && named("SubCollisionPipeline"))
       return ElementKind::compositePipeline;
+    if (dialect::has(dialect::ofArticulations, tag) && named("ArticulatedSystemMapping"))
+      return ElementKind::articulation;
     if (named(tag) || dialect::is_over_elements(tag)) return ElementKind::component;
     for (auto const& other : dialect::standsFor)
       if (other.name == tag) return ElementKind::component;

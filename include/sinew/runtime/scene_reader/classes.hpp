@@ -94,7 +94,9 @@ class SceneClasses {
       case RoleKind::mapping: {
         ScenePlace const* parent = item.place->parent ? item.place->parent->owner() : nullptr;
         std::vector<ScenePlace const*> parents;
-        if (first.severalParents) {
+        // of a mapping from one parent or two, the element says from how many
+        const bool several = followsSeveral(item);
+        if (several) {
           parents = parentsOf(item);
           if (parents.empty()) return nullptr;
           parent = parents[0];
@@ -114,7 +116,10 @@ class SceneClasses {
                      "has no child: its node has neither a MechanicalObject nor an OglModel; add one"),
                  nullptr;
         const std::string out = item.place->state.empty() ? "Vec3f" : item.place->state;
-        if (!first.in2.empty() && parents.size() == 2)
+        const bool ofTwo = std::any_of(item.candidates.begin(), item.candidates.end(), [&](auto const* c) {
+          return several && !c->in2.empty();
+        });
+        if (ofTwo && parents.size() == 2)
           return withTypes(item,
                            text(parent->state, ',', parents[1]->state, ',', out),
                            text(", from the states of '",
@@ -124,7 +129,7 @@ class SceneClasses {
                                 "' to that of '",
                                 item.place->name,
                                 "'"));
-        if (!first.in2.empty())
+        if (ofTwo)
           return messages_.addError(*item.element,
                                     text("follows two parents, and names ",
                                          parents.size(),
@@ -208,6 +213,14 @@ class SceneClasses {
       return info->dataTypes == host;
     });
     return known ? host : text(std::string_view(host).substr(0, host.size() - 1), 'd');
+  }
+  // whether a mapping has several parents: always, or where an input2 leads to one
+  static bool followsSeveral(SceneItem const& item) {
+    auto several = [](auto const* c) { return c->severalParents; };
+    auto const* const second = item.element->attribute("input2");
+    return std::all_of(item.candidates.begin(), item.candidates.end(), several) ||
+           (second && is_link(second->value) && Words(second->value).rest() != "@" &&
+            std::any_of(item.candidates.begin(), item.candidates.end(), several));
   }
   // the nodes of the parents that `input` names, or input1 and input2: "@left @../right/corner"
   std::vector<ScenePlace const*> parentsOf(SceneItem& item) {

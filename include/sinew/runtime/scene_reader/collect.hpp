@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/runtime/scene_reader/articulations.hpp>
 #include <sinew/runtime/scene_reader/composed_elements.hpp>
 #include <sinew/runtime/scene_reader/element_settings.hpp>
 #include <sinew/runtime/scene_reader/split_visuals.hpp>
@@ -18,12 +19,17 @@ namespace detail {
 class SceneCollector {
  public:
   SceneCollector(SceneItems& items, SceneMessages& messages)
-      : items_(items), messages_(messages), composed_(items, messages), pipelines_(items, messages) {}
+      : items_(items),
+        messages_(messages),
+        composed_(items, messages),
+        pipelines_(items, messages),
+        articulations_(messages) {}
 
   /// All in and below a node.
   void collectAll(ScenePlace& top) {
     collect(top);
     pipelines_.giveNodes(top);
+    articulations_.giveAll(top);
     ElementSettings(messages_).giveAll(top);
     split_visuals(top, items_);
   }
@@ -33,6 +39,7 @@ class SceneCollector {
   SceneMessages& messages_;
   ComposedElements composed_;
   SubPipelines pipelines_;
+  Articulations articulations_;
 
   void collect(ScenePlace& place) {
     std::map<std::string, int> names;
@@ -64,6 +71,10 @@ class SceneCollector {
           break;
         case ElementKind::compositePipeline:
           pipelines_.addComposite(place, child);
+          break;
+        case ElementKind::articulation:
+          items_.hasNoChildren(child);
+          articulations_.add(place, child);
           break;
         default:
           if (auto item = items_.makeItem(place, child)) {

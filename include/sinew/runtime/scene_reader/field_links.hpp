@@ -11,9 +11,43 @@ namespace sinew {
 
 namespace detail {
 
+/// Whether a constraint in the node of a state that no mapping moves holds all of its points in all
+/// directions: those of one point, or each.
+inline bool is_held(ScenePlace const& owner) {
+  if (owner.ofRole(RoleKind::mapping)) return false;
+  auto on = [](std::string_view word) { return word == "1" || word == "true"; };
+  auto valueOf = [](SceneItem const& item, std::string_view name) {
+    auto const* given = item.element->attribute(name);
+    return given ? std::string_view(given->value) : std::string_view();
+  };
+  SceneItem const* const state = owner.ofRole(RoleKind::state);
+  if (!state || !valueOf(*state, "velocity").empty()) return false;  // it goes on with that
+  std::size_t numbers = 0;
+  for (Words words(valueOf(*state, "position")); !words.end(); words.next()) ++numbers;
+  const std::string_view types = owner.state;
+  const std::size_t ofPoint = types.starts_with("Rigid3")                    ? 7
+                              : types.starts_with("Vec") && types.size() > 3 ? std::size_t(types[3] - '0')
+                                                                             : 3;
+  return std::any_of(owner.items.begin(), owner.items.end(), [&](auto const& item) {
+    if (!item->info || item->element->attribute("activeDirections") ||
+        (item->info->name != "FixedConstraint" && item->info->name != "PartialFixedConstraint"))
+      return false;
+    if (item->info->name == "PartialFixedConstraint") {
+      std::size_t directions = 0, held = 0;
+      for (Words words(valueOf(*item, "fixedDirections")); !words.end(); ++directions)
+        held += std::size_t(on(words.next()));
+      if (held != directions) return false;
+    }
+    if (on(Words(valueOf(*item, "fixAll")).rest())) return true;
+    const std::string_view indices = Words(valueOf(*item, "indices")).rest();
+    return numbers == ofPoint && (indices.empty() || indices == "0");
+  });
+}
+
 /// Whether what is in a node moves.
 inline bool moves(ScenePlace const& place) {
   ScenePlace const* const owner = place.owner();
+  if (owner && is_held(*owner)) return false;
   for (ScenePlace const* at = owner; at; at = at->parent)
     if (at->ofRole(RoleKind::odeSolver)) return true;
   if (!owner) return false;
@@ -118,9 +152,9 @@ inline bool follow_field(SceneItem& item, FieldInfo const& field, XmlAttribute c
 
 /// Input and output of a mapping say what the tree says: the state above, and that of its node.
 inline void check_ends(SceneItem& item, SceneMessages& messages) {
-  for (std::string_view name : {"input", "output"}) {
+  for (std::string_view name : {"input", "input1", "output"}) {
     auto const* a = item.element->attribute(name);
-    if (!a || !is_link(a->value) || (item.info->severalParents && name == "input")) continue;
+    if (!a || !is_link(a->value) || (item.info->severalParents && name != "output")) continue;
     try {
       const LinkTarget target = follow_link(item, a->value);
       ScenePlace const* const place = target.item ? target.item->place : target.place;

@@ -8,6 +8,7 @@
 #include <sinew/runtime/scene_reader/loader_of_file.hpp>
 #include <sinew/runtime/scene_reader/other_attributes.hpp>
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <string>
@@ -168,6 +169,11 @@ class SceneValues {
     });
   }
 
+  // a mapping of which one or another class has two parents of different kinds, named each by a link
+  static bool ofTwoParents(SceneItem const& item) {
+    return std::any_of(
+        item.candidates.begin(), item.candidates.end(), [](auto const* c) { return !c->in2.empty(); });
+  }
   void attribute(SceneItem& item, XmlAttribute const& a, std::set<std::string_view>& given) {
     static constexpr std::array own = std::to_array<std::string_view>({"name", "template", "src", "type"});
     if (dialect::has(own, a.name) && !(a.name == "type" && item.element->tag != "Object")) return;
@@ -179,7 +185,7 @@ class SceneValues {
       return others_.geometry(item, a);
     const bool maps = item.info->role == RoleKind::mapping || item.info->traits.joinsTopologies;
     if (maps && (a.name == "input" || a.name == "output")) return;
-    if (!item.info->in2.empty() && (a.name == "input1" || a.name == "input2")) return;
+    if ((a.name == "input1" || a.name == "input2") && ofTwoParents(item)) return;
     FieldInfo const* field = nullptr;
     int number = -1;  // of a list among several
     for (auto const& f : item.info->fields) {
