@@ -44,6 +44,16 @@ const Matrix3d tilt = Eigen::AngleAxisd(1.1, Vector3d(1, 2, -2) / 3).matrix();
 
 }  // namespace
 
+TEST_CASE("a surface may lose all of its triangles, but not begin without any") {
+  const Sheet sheet(1, 1);
+  refuses(Triangles{}, sheet.x, {}, {"the topology has no triangle"});
+  auto membrane = ready(Triangles{}, sheet.x, {.triangles = sheet.triangles});
+  membrane.init(InitContext<Vec3d>{"body", sheet.x, {}});
+  auto x = sheet.x;
+  x[0] *= 2, x[3] *= 2;
+  for (auto const& f : force(membrane, x)) CHECK(f.norm() == 0);
+}
+
 TEST_CASE("patch test: points inside an affine boundary settle to the same affine map, in any plane") {
   Sheet sheet(3, 3);
   std::vector<bool> held;

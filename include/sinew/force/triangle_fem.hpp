@@ -228,6 +228,8 @@ struct TriangleFEMForceField {
     return {.objective = !small, .conservative = method != TriangleMethod::large, .exactTangent = small};
   }
 
+  bool hadElements = false;  // a surface may have lost all its triangles
+
   using Driver = ElementDriver<TriangleFEM, D>;
   using Law = typename Driver::Law;
   Driver driver{};
@@ -243,8 +245,9 @@ struct TriangleFEMForceField {
         triangles.push_back({q[0], q[1], q[2]});
         triangles.push_back({q[0], q[2], q[3]});
       }
-    if (triangles.empty() && !t.grows)
+    if (triangles.empty() && !hadElements && !t.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
+    hadElements = true;
     detail::check_indices(where, "triangle", triangles, context.rest.size());
     check_one_or_each(where, "youngModulus", youngModulus.size(), triangles.size(), "triangles");
     check_one_or_each(where, "poissonRatio", poissonRatio.size(), triangles.size(), "triangles");

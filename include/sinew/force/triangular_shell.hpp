@@ -233,6 +233,8 @@ struct TriangularShellForceField {
   // the symmetric part
   static constexpr ForceProperties properties() { return {.exactTangent = false}; }
 
+  bool hadElements = false;  // a surface may have lost all its triangles
+
   using Driver = ElementDriver<TriangularShell, D>;
   Driver driver{};
 
@@ -247,8 +249,9 @@ struct TriangularShellForceField {
         triangles.push_back({q[0], q[1], q[2]});
         triangles.push_back({q[0], q[2], q[3]});
       }
-    if (triangles.empty() && !t.grows)
+    if (triangles.empty() && !hadElements && !t.grows)
       throw Error(where, "the topology has no triangle; give the node a topology with triangles or quads");
+    hadElements = true;
     std::vector<typename Driver::Rest> rest;
     for (std::size_t e = 0; e < triangles.size(); ++e) {
       typename D::Coord x[3];
