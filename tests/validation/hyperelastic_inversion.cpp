@@ -29,8 +29,7 @@ const std::vector<std::pair<Material, std::vector<double>>> materials{
     {Material::MooneyRivlin, {30, 20, 500}},
     {Material::Ogden, {200, 3, 500}},
     {Material::Ogden, {120, 1.3, 40, 5, 20, -2, 500}},
-    {Material::StableNeoHookean, {100, 150}},
-    {Material::VerondaWestman, {125, 0.8, 500}}};
+    {Material::StableNeoHookean, {100, 150}}};
 
 /// The unit cube in 40 tetrahedra.
 const Mesh cube = regular_grid_tetrahedra(3, 3, 3, {0, 0, 0}, {1, 1, 1});

@@ -131,7 +131,7 @@ inline const std::vector<Law> laws{{Material::ArrudaBoyce, {100, 500}},
                                    {Material::Ogden, {200, 3, 500}},
                                    {Material::Ogden, {120, 1.3, 40, 5, 20, -2, 500}},
                                    {Material::StableNeoHookean, {100, 150}},
-                                   {Material::VerondaWestman, {125, 0.8, 500}}};
+                                   {Material::VerondaWestman, {250, 0.4, 500}}};
 
 /// Those with directions, along the axes or mirrored in a plane of them.
 inline const std::vector<Law> directedLaws{

@@ -42,7 +42,7 @@ namespace sinew {
 /// are continued below a smallest ratio, with two derivatives, by what ends in straight lines: W is defined
 /// for crushed and inverted elements too, grows with inversion, and drives them back. StVenantKirchhoff, and
 /// Costa but for its term of volume, take an element that is inside out for its mirror image, which they
-/// hold. Exponentials are continued above e^50.
+/// hold. Exponentials are continued above e^50; what they do to elements far from rest takes small steps.
 enum class HyperelasticMaterial {
   ArrudaBoyce,
   StVenantKirchhoff,
