@@ -23,7 +23,7 @@ struct Kind {
   double poisson;
   int degree;  // of the smoother
 };
-constexpr Kind kinds[] = {{"plain", 0.3, 2}, {"incompressible", 0.49, 6}, {"contrast", 0.3, 2}};
+constexpr Kind kinds[] = {{"plain", 0.3, 2}, {"incompressible", 0.49, 8}, {"contrast", 0.3, 2}};
 
 auto scene(Mesh const& mesh, Kind const& kind, int refresh) {
   std::vector<double> young(mesh.tetrahedra.size(), 3000);

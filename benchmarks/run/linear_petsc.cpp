@@ -5,6 +5,7 @@
 #include <petscksp.h>
 
 #include <algorithm>
+#include <string_view>
 
 namespace bench {
 
@@ -59,6 +60,8 @@ LinearResult solve_by_petsc(LinearSystem const& s, char const* preconditioner) {
   KSPSetTolerances(solver, linearTolerance, 0, PETSC_DEFAULT, 2000);
   KSPGetPC(solver, &cycle);
   PCSetType(cycle, preconditioner);
+  // without it ml has no number of levels; gamg gets other defaults by it, which take more iterations
+  if (preconditioner == std::string_view("ml")) PCSetFromOptions(cycle);
   result.setUp = processor_seconds([&] { KSPSetUp(solver); });
   result.solve = processor_seconds([&] { KSPSolve(solver, b, x); });
   PetscInt iterations = 0;
