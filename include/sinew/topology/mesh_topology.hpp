@@ -53,7 +53,8 @@ struct MeshTopology {
               "",
               "six points each: those of a triangle, and in the same order those of the opposite one",
               range::nonNegative),
-        field("filename", &T::filename, "", "a file (.msh, .obj, .stl, .ply, .vtk) with what is not given here")
+        field(
+            "filename", &T::filename, "", "a file (.msh, .obj, .stl, .ply, .vtk) with what is not given here")
             .also("fileTopology"),
         more...);
   }
