@@ -23,7 +23,8 @@ TEST_CASE("read_mesh chooses by the ending of the name") {
 
 TEST_CASE("read_mesh lists the endings that it knows") {
   const std::string known =
-      "the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply (Stanford), .vtk (VTK) and .vtu";
+      "the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply (Stanford), .vtk "
+      "(VTK) and .vtu";
   check_says(
       error_of([] { io::read_mesh("a.ply"); }), "a.ply", "files ending in \".ply\" are not read; " + known);
   check_says(error_of([] { io::read_mesh("folder.msh/a"); }),

@@ -39,6 +39,7 @@ TEST_CASE("a cylinder of each hyperelastic law under four pressures", "[page]") 
   Record table("cylinder_hyperelastic", {"law", "p1", "p2", "p3", "p4", "error"});
   const Mesh mesh = tetrahedra();
   for (Law const& law : laws) {
+    if (law.material == Material::VerondaWestman) continue;  // that is in hyperelastic_response.cpp
     const auto [shear, bulk] = rest_moduli(law.material, law.p);
     const double E = 9 * bulk * shear / (3 * bulk + shear), nu = E / (2 * shear) - 1;
     double axial[4], worst = 0;

@@ -41,8 +41,10 @@ struct ConvexCollisionModel {
     return collision_model_fields<M>(
         field("points", &M::points, "m", "points of the hull, in the axes of the rigid")
             .also("position CHPoints"),
-        field(
-            "filename", &M::filename, "", "a mesh (.msh, .obj, .stl, .ply, .vtk) whose points they are, instead"));
+        field("filename",
+              &M::filename,
+              "",
+              "a mesh (.msh, .obj, .stl, .ply, .vtk) whose points they are, instead"));
   }
 
   CollisionSurface surface{};

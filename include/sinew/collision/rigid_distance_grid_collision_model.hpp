@@ -43,12 +43,12 @@ struct RigidDistanceGridCollisionModel {
   static constexpr auto fields() {
     using M = RigidDistanceGridCollisionModel;
     return collision_model_fields<M>(
-        field(
-            "filename",
-            &M::filename,
-            "",
-            "a mesh of a closed surface (.msh, .obj, .stl, .ply, .vtk), in the axes of the rigid; #cube: a cube of "
-            "half side `scale`; #sphere: a ball of that radius")
+        field("filename",
+              &M::filename,
+              "",
+              "a mesh of a closed surface (.msh, .obj, .stl, .ply, .vtk), in the axes of the rigid; #cube: a "
+              "cube of "
+              "half side `scale`; #sphere: a ball of that radius")
             .also("fileRigidDistanceGrid"),
         field("scale", &M::scale, "", "factor of its size", range::positive),
         field("translation", &M::translation, "m", "moves it in the axes of the rigid"),

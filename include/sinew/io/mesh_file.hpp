@@ -8,8 +8,8 @@
 namespace sinew::io {
 
 /// Reads a mesh by the ending of its name, letter case ignored: .msh (Gmsh), .obj (Wavefront), .stl
-/// (stereolithography), .ply (Stanford), .vtk (legacy VTK) or .vtu (VTK XML). Throws Error on any other ending, and as the
-/// reader of the format does.
+/// (stereolithography), .ply (Stanford), .vtk (legacy VTK) or .vtu (VTK XML). Throws Error on any other
+/// ending, and as the reader of the format does.
 inline Mesh read_mesh(std::string const& path) {
   return file_ending(path) == ".vtu" ? read_vtu(path) : read_text_mesh(path, " and .vtu");
 }

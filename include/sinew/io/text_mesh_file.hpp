@@ -13,8 +13,8 @@ namespace sinew::io {
 std::string file_ending(std::string_view path);
 
 /// Reads a mesh by the ending of its name, letter case ignored: .msh (Gmsh), .obj (Wavefront), .stl
-/// (stereolithography), .ply (Stanford) or .vtk (legacy VTK). `others` names the endings that the caller knows beside these.
-/// Throws Error on any other ending, and as the reader of the format does.
+/// (stereolithography), .ply (Stanford) or .vtk (legacy VTK). `others` names the endings that the caller
+/// knows beside these. Throws Error on any other ending, and as the reader of the format does.
 Mesh read_text_mesh(std::string const& path, std::string_view others = "");
 
 }  // namespace sinew::io
@@ -40,12 +40,12 @@ SINEW_ONCE Mesh read_text_mesh(std::string const& path, std::string_view others)
   if (ending == ".stl") return read_stl(path);
   if (ending == ".ply") return read_ply(path);
   if (ending == ".vtk") return read_vtk(path);
-  throw Error(
-      path,
-      text(ending.empty() ? "has no ending that tells its format"
-                          : text("files ending in ", in_quotes(ending), " are not read"),
-           "; the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply (Stanford), .vtk (VTK)",
-           others));
+  throw Error(path,
+              text(ending.empty() ? "has no ending that tells its format"
+                                  : text("files ending in ", in_quotes(ending), " are not read"),
+                   "; the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply "
+                   "(Stanford), .vtk (VTK)",
+                   others));
 }
 
 }  // namespace sinew::io

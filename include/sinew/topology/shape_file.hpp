@@ -17,8 +17,8 @@ std::vector<Eigen::Vector3d> points_in_file(std::string const& path);
 Mesh surface_in_file(std::string const& path);
 
 /// Mass and inertia of a rigid body: those that SOFA's .rigid says, or those of 1 kg that fills a closed
-/// surface around the origin (.msh, .obj, .stl, .ply, .vtk) evenly. Throws Error where the file cannot be read,
-/// where the surface is not closed, and where its centre of mass is not at the origin.
+/// surface around the origin (.msh, .obj, .stl, .ply, .vtk) evenly. Throws Error where the file cannot be
+/// read, where the surface is not closed, and where its centre of mass is not at the origin.
 RigidMass<double, 3> rigid_mass_in_file(std::string const& path);
 
 }  // namespace sinew
