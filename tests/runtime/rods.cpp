@@ -38,7 +38,7 @@ struct Mine
                FixedConstraint<Rigid3d>, RestShapeSpringsForceField<Rigid3d>, AdaptiveBeamForceField<Rigid3d>,
                AdaptiveBeamMass<Rigid3d>, InterventionalRadiologyController<Rigid3d>,
                BeamInterpolation<Rigid3d>, WireBeamInterpolation<Rigid3d>, WireRestShape<Rigid3d>,
-               RodStraightSection, RodSpireSection, AdaptiveBeamMapping<Rigid3d, Vec3d>> {};
+               MeshOBJLoader, RodStraightSection, RodSpireSection, AdaptiveBeamMapping<Rigid3d, Vec3d>> {};
 
 namespace {
 
