@@ -108,11 +108,10 @@ def run(options, scene, answer):
             done = done_with(max(options.steps, compared), "--record", f"{folder}/record")
         except subprocess.TimeoutExpired:
             return "too long", f"more than {options.timeout:g} s", None, None
-        if done.returncode == 1:
-            said = next((line for line in done.stderr.splitlines() if not line.startswith("ignored")), "")
-            return "refused", named(said), None, None
         if done.returncode != 0:
-            return "failed", f"exit status {done.returncode}", None, None
+            said = next((line for line in done.stderr.splitlines() if not line.startswith(("ignored", "warning"))), "")
+            state = "refused" if done.returncode == 1 else "failed"
+            return state, named(said) or f"exit status {done.returncode}", None, None
         if not answer:
             return "runs", "", None, None
         # without recording, which is no part of a step; a scene of some bodies takes 0.1 ms in all
@@ -146,13 +145,13 @@ def figure(apart):
 
 
 def named(message):
-    """The error of a scene, with the name of its file for the path."""
-    return re.sub(r"^\S*?([^/\s]*\.(scn|xml):)", r"\1", message)
+    """An error with the names of scene files for their paths."""
+    return re.sub(r"\S*/([^/\s]+\.(?:scn|xml))\b", r"\1", message)
 
 
 def short(message):
     """What an error says, without the folders that were searched and what to do."""
-    return re.sub(r" in /.*", "", message.split(";")[0]).replace("|", "\\|")
+    return re.sub(r" in /.*", "", message.split(";")[0]).replace("|", "\\|").replace("<", "&lt;")
 
 
 def row(scene, more, result, reasons):

@@ -76,8 +76,8 @@ def run(options, scene, steps):
         except subprocess.TimeoutExpired:
             return "too long", f"more than {options.timeout:g} s", None
         if ended.returncode != 0:
-            said = next((line for line in ended.stderr.splitlines() if not line.startswith("ignored")), "")
-            return ("refused", compare.named(said), None) if ended.returncode == 1 else ("failed", f"exit status {ended.returncode}", None)
+            said = next((line for line in ended.stderr.splitlines() if not line.startswith(("ignored", "warning"))), "")
+            return "refused" if ended.returncode == 1 else "failed", compare.named(said) or f"exit status {ended.returncode}", None
         frames = compare.frames_of(f"{folder}/record")
         worst, body = max(apart(frames[0], frames[-1], start, end) for start, end, _ in states)
         return "runs", body, worst
