@@ -12,15 +12,15 @@
 
 namespace sinew {
 
+// clang-format off
 /// How values u of a body react, each place for itself: du/dt = R(u, w), with a variable w that remembers.
-///   FisherKPP          r                     R = r u (1 - u)                             (1937): logistic
-///   growth FitzHughNagumo     k a epsilon b         R = k u (1 - u) (u - a) - w,  dw/dt = epsilon (b u - w)
-///   (1961,
-///                      1962); with b = 0 and w = 0 Nagumo's, of two stable values
-///   MitchellSchaeffer  tauIn tauOut tauOpen tauClose gate        (2003): potentials of heart muscle from 0
-///   to 1
-///                      R = w u^2 (1 - u)/tauIn - u/tauOut,
-///                      dw/dt = (1 - w)/tauOpen below u = gate, -w/tauClose above
+///   FisherKPP (1937): logistic growth, with the parameter r
+///     R = r u (1 - u)
+///   FitzHughNagumo (1961, 1962), k a epsilon b; with b = 0 and w = 0 Nagumo's, of two stable values
+///     R = k u (1 - u) (u - a) - w,        dw/dt = epsilon (b u - w)
+///   MitchellSchaeffer (2003), tauIn tauOut tauOpen tauClose gate: potentials of heart muscle from 0 to 1
+///     R = w u^2 (1 - u)/tauIn - u/tauOut, dw/dt = (1 - w)/tauOpen below u = gate, -w/tauClose above
+// clang-format on
 enum class Reaction { FisherKPP, FitzHughNagumo, MitchellSchaeffer };
 constexpr std::array<std::string_view, 3> enum_names(Reaction) {
   return {"FisherKPP", "FitzHughNagumo", "MitchellSchaeffer"};

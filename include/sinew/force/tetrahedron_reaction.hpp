@@ -62,7 +62,7 @@ struct TetrahedronReactionFEMForceField {
 
   static constexpr ForceProperties properties() { return {.internal = false, .objective = false}; }
 
-  ReactionLaw law{};
+  ReactionLaw reacts{};
   std::vector<double> share{}, slope{};  // c V of each point, and dR/du at the last force
   std::vector<double> remembered{};      // w of each point
 
@@ -88,8 +88,8 @@ struct TetrahedronReactionFEMForceField {
     const std::size_t n = context.rest.size();
     detail::check_indices(where, "tetrahedron", tetrahedra, n);
     if (!recovery.empty()) check_one_or_each(where, "recovery", recovery.size(), n, "points");
-    law.reaction = reaction;
-    std::copy(parameterSet.begin(), parameterSet.end(), law.p.begin());
+    reacts.reaction = reaction;
+    std::copy(parameterSet.begin(), parameterSet.end(), reacts.p.begin());
     share.assign(n, 0);
     for (std::size_t e = 0; e < tetrahedra.size(); ++e) {
       Tetrahedron const& t = tetrahedra[e];
@@ -115,12 +115,12 @@ struct TetrahedronReactionFEMForceField {
     if (reaction == Reaction::FisherKPP) return;
     auto const& x = state.position;
     for (std::size_t i = 0; i < remembered.size() && i < x.size(); ++i)
-      remembered[i] = law.recovered(double(x[i][0]), remembered[i], ahead.dt);
+      remembered[i] = reacts.recovered(double(x[i][0]), remembered[i], ahead.dt);
   }
 
   void addForce(MechanicalParams const&, VecDeriv& f, VecCoord const& x, VecDeriv const&) {
     for (std::size_t i = 0; i < share.size(); ++i) {
-      const auto rate = law.at(double(x[i][0]), remembered[i]);
+      const auto rate = reacts.at(double(x[i][0]), remembered[i]);
       f[i][0] += Real(share[i] * rate.value);
       slope[i] = rate.slope;
     }
@@ -131,7 +131,7 @@ struct TetrahedronReactionFEMForceField {
   double potentialEnergy(VecCoord const& x) const {
     double sum = 0;
     for (std::size_t i = 0; i < share.size(); ++i)
-      sum -= share[i] * law.at(double(x[i][0]), remembered[i]).integral;
+      sum -= share[i] * reacts.at(double(x[i][0]), remembered[i]).integral;
     return sum;
   }
   template <class Sink>
