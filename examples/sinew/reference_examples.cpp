@@ -1908,8 +1908,29 @@ constexpr auto classExamples = std::to_array<ClassExample>({
                          springsIndices2="@near.indices2" lengths="@near.distances" stiffness="50" damping="0.1"/>
 </Node>)"},
     {"BeamInterpolation", "", rod, ""},
-    {"RodSpireSection", "", guideWire, ""},
-    {"RodStraightSection", "", guideWire, ""},
+    {"RodSpireSection", R"(
+<Node name="wire">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RodSpireSection name="section" length="0.3" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="24"
+                   spireDiameter="0.04" spireHeight="0.01"/>
+  <WireRestShape name="shape" wireMaterials="@section"/>
+  <MechanicalObject template="Rigid3d" position="@shape.frames"/>
+  <AdaptiveBeamForceField interpolation="@shape.beams"/>
+  <AdaptiveBeamMass interpolation="@shape.beams"/>
+  <FixedConstraint indices="0"/>
+</Node>)"},
+    {"RodStraightSection", R"(
+<Node name="wire">
+  <EulerImplicitSolver rayleighStiffness="0.01"/>
+  <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
+  <RodStraightSection name="section" length="0.1" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="5"/>
+  <WireRestShape name="shape" wireMaterials="@section"/>
+  <MechanicalObject template="Rigid3d" position="@shape.frames"/>
+  <AdaptiveBeamForceField interpolation="@shape.beams"/>
+  <AdaptiveBeamMass interpolation="@shape.beams"/>
+  <FixedConstraint indices="0"/>
+</Node>)"},
     {"WireBeamInterpolation", "", guideWire, ""},
     {"WireRestShape", "", guideWire, ""},
     {"GenerateRigidMass", R"(
