@@ -1912,9 +1912,9 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <Node name="wire">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
   <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
-  <RodSpireSection name="section" length="0.3" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="24"
+  <RodSpireSection name="piece" length="0.3" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="24"
                    spireDiameter="0.04" spireHeight="0.01"/>
-  <WireRestShape name="shape" wireMaterials="@section"/>
+  <WireRestShape name="shape" wireMaterials="@piece.section"/>
   <MechanicalObject template="Rigid3d" position="@shape.frames"/>
   <AdaptiveBeamForceField interpolation="@shape.beams"/>
   <AdaptiveBeamMass interpolation="@shape.beams"/>
@@ -1924,8 +1924,8 @@ constexpr auto classExamples = std::to_array<ClassExample>({
 <Node name="wire">
   <EulerImplicitSolver rayleighStiffness="0.01"/>
   <SparseLDLSolver template="CompressedRowSparseMatrixd"/>
-  <RodStraightSection name="section" length="0.1" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="5"/>
-  <WireRestShape name="shape" wireMaterials="@section"/>
+  <RodStraightSection name="piece" length="0.1" youngModulus="1e9" massDensity="6000" radius="0.0005" nbBeams="5"/>
+  <WireRestShape name="shape" wireMaterials="@piece.section"/>
   <MechanicalObject template="Rigid3d" position="@shape.frames"/>
   <AdaptiveBeamForceField interpolation="@shape.beams"/>
   <AdaptiveBeamMass interpolation="@shape.beams"/>
