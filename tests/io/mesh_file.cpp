@@ -25,8 +25,9 @@ TEST_CASE("read_mesh lists the endings that it knows") {
   const std::string known =
       "the known endings are .msh (Gmsh), .obj (Wavefront), .stl (stereolithography), .ply (Stanford), .vtk "
       "(VTK) and .vtu";
-  check_says(
-      error_of([] { io::read_mesh("a.ply"); }), "a.ply", "files ending in \".ply\" are not read; " + known);
+  check_says(error_of([] { io::read_mesh("a.step"); }),
+             "a.step",
+             "files ending in \".step\" are not read; " + known);
   check_says(error_of([] { io::read_mesh("folder.msh/a"); }),
              "folder.msh/a",
              "has no ending that tells its format; " + known);

@@ -134,7 +134,7 @@ TEST_CASE("read_vtu says what it does not read") {
   check_says(error_with(vtuAscii, "LittleEndian", "MiddleEndian"), "f.vtu:2", "MiddleEndian");
   check_says(error_with(vtuAscii, "byte_order", "header_type=\"UInt16\" byte_order"), "f.vtu:2", "UInt16");
   check_says(error_with(vtuAscii, "format=\"ascii\"", "format=\"ansi\""), "f.vtu:7", "format is \"ansi\"");
-  check_says(error_with(vtuAscii, "5 9 10<", "5 9 24<"), "f.vtu:18", "cell 4 is of VTK's cell type 24");
+  check_says(error_with(vtuAscii, "5 9 10<", "5 9 26<"), "f.vtu:18", "cell 4 is of VTK's cell type 26");
   check_says(error_of([] { io::parse_vtu("f.vtu", "<svg/>"); }), "f.vtu:1", "no <VTKFile>");
   check_says(error_of([] { io::parse_vtu("f.vtu", "hello"); }), "f.vtu:1", "not complete XML");
 }

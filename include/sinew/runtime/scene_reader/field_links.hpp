@@ -29,7 +29,7 @@ inline bool is_held(ScenePlace const& owner) {
                               : types.starts_with("Vec") && types.size() > 3 ? std::size_t(types[3] - '0')
                                                                              : 3;
   return std::any_of(owner.items.begin(), owner.items.end(), [&](auto const& item) {
-    if (!item->info || item->element->attribute("activeDirections") ||
+    if (!item->info || item->element->attribute("activeDirections") || item->element->attribute("active") ||
         (item->info->name != "FixedConstraint" && item->info->name != "PartialFixedConstraint"))
       return false;
     if (item->info->name == "PartialFixedConstraint") {
