@@ -129,7 +129,12 @@ Eigen::Matrix<double, 27, 27> quadratic_mass(Eigen::Matrix<double, 3, 27> const&
 /// corners of quadratic elements; so the diagonal is, in proportion (Hinton, Rock, Zienkiewicz 1976).
 template <int Nodes>
 Eigen::Matrix<double, Nodes, 1> lumped_mass(Eigen::Matrix<double, Nodes, Nodes> const& consistent) {
-  return consistent.diagonal() * (consistent.sum() / consistent.trace());
+  double sum = 0, trace = 0;
+  for (int i = 0; i < Nodes; ++i) {
+    trace += consistent(i, i);
+    for (int k = 0; k < Nodes; ++k) sum += consistent(i, k);
+  }
+  return consistent.diagonal() * (sum / trace);
 }
 
 }  // namespace sinew
