@@ -190,7 +190,7 @@ TEST_CASE("one grid stands on another by its points, and bears its weight") {
   CHECK(std::abs(force_on_slab(sim)[2]) == Approx(2 * g).epsilon(1e-6));
 }
 
-TEST_CASE("grids that cannot be are refused") {
+TEST_CASE("bodies around grids that cannot be are refused") {
   auto refused = [](Grid const& model, std::initializer_list<std::string_view> words) {
     one::refuses(model, {rigid_at({0, 0, 0})}, {}, words);
   };
