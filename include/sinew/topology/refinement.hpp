@@ -28,6 +28,8 @@ Refinement plan_refinement(TopologyView const& body, std::span<Eigen::Vector3d c
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <sinew/topology/border.hpp>
+
 #include <algorithm>
 #include <map>
 #include <set>
