@@ -267,8 +267,8 @@ TEST_CASE("SparseGridTopology says what is wrong, and keeps what it had") {
   CHECK(contains(change([](auto& g) { g.n = {2, 2, 2}, g.onlyInsideCells = true; }), "no cell is inside"));
   CHECK(
       contains(change([](auto& g) { g.fileTopology.path = "missing.obj"; }), "missing.obj: cannot be read"));
-  CHECK(contains(change([](auto& g) { g.fileTopology.path = "a.ply"; }),
-                 "files ending in \".ply\" are not read"));
+  CHECK(contains(change([](auto& g) { g.fileTopology.path = "a.step"; }),
+                 "files ending in \".step\" are not read"));
   // flat: all points in a plane
   CHECK(contains(change([](auto& g) {
                    for (auto& p : g.position) p[2] = 0;
