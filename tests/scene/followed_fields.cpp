@@ -38,7 +38,10 @@ TEST_CASE("every list of a component says what its entries stand for") {
       for_each_field_of<C>([&]<class T>(Field<C, T> const& fd) {
         INFO(component_name<C>() << ": " << fd.name);
         if constexpr (std::is_same_v<T, std::vector<int>>) {
-          constexpr bool byHand = requires(C c, Followed change) { c.follow(change); };
+          constexpr bool byHand = requires(C c, Followed change) { c.follow(change); } ||
+                                  requires(C c, Renumbering child, std::vector<Renumbering const*> above) {
+                                    c.follow(child, above);
+                                  };
           CHECK((byHand || fd.entries != Of::nothing || free.contains(fd.name)));
           ++lists;
         } else if constexpr (requires(T list) { list.resize(0), list[0]; }) {
