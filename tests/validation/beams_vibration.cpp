@@ -162,11 +162,12 @@ TEST_CASE("a free beam in flight keeps its momenta and its energy") {
     state.velocity.push_back(v);
   }
   const double radius = 0.05;
-  RegistryScene sim{node<"root">(RungeKutta4Solver{},
-                                 MeshTopology{.edges = chain(n)},
-                                 state,
-                                 BeamMass<Rigid3d>{.massDensity = density, .radius = radius},
-                                 Beam{.poissonRatio = 0.3, .youngModulus = 1e5, .radius = radius})};
+  RegistryScene sim{node<"root">(
+      RungeKutta4Solver{},
+      MeshTopology{.edges = chain(n)},
+      state,
+      BeamMass<Rigid3d>{.massDensity = density, .radius = radius},
+      Beam{.poissonRatio = 0.3, .youngModulus = 1e5, .radius = radius, .shearStressComputation = true})};
   sim.init();
   auto const& s = sim.root().state();
   auto momenta = [&] {

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 
 namespace sinew {
@@ -52,6 +53,9 @@ struct HullContacts {
     const detail::MovedPair<A, B> at(pair, swept, time);
     V const& origin = at.origin;
     const detail::ConvexView viewA = at.a.view(origin), viewB = at.b.view(origin);
+    // products of lengths are no numbers of what is too large
+    if (!std::isfinite(viewA.radius * viewA.radius)) detail::refuse_place(pair.a, pair.elementA);
+    if (!std::isfinite(viewB.radius * viewB.radius)) detail::refuse_place(pair.b, pair.elementB);
     ConvexContact c = detail::convex_contact(viewA, viewB);
     if (c.distance > reach + pair.thickness()) return;
 
