@@ -501,7 +501,9 @@ SINEW_ONCE CompositeCells::Part CompositeCells::merged(Box const& box, double sc
             K.block<3, 3>(3 * freePoints[i], 3 * freePoints[j]);
     }
     const Eigen::LDLT<MatrixXd> solver(inner);
-    const MatrixXd found = solver.solve(load);
+    MatrixXd found(rows, 24);
+    for (int k = 0; k < 24; ++k)  // a column each: nvcc refuses Eigen's triangular solves of several at once
+      found.col(k) = solver.solve(load.col(k));
     if (stiffest > 0 && found.allFinite())
       for (std::size_t i = 0; i < freePoints.size(); ++i) {
         const int p = freePoints[i];
