@@ -262,6 +262,7 @@ struct Collision {
       pipeline.near.clear();
       pipeline.boxTests = 0;
       with_first<role::ContactManager>(scope, [&](auto& manager) {
+        manager.surfaces = pipeline.surfaces;  // in a copy of the scene they are others
         withIntersection(
             scope, [&](auto const& method) { StateContacts<S>{scope}.begin(pipeline, manager, method); });
       });
