@@ -33,7 +33,8 @@ class DeviceVector {
   using const_iterator = typename std::vector<T>::const_iterator;
 
   DeviceVector() = default;
-  explicit DeviceVector(std::size_t n, T const& value = T()) : size_(n), host_(n, value) {}
+  explicit DeviceVector(std::size_t n) : size_(n), host_(n) {}
+  DeviceVector(std::size_t n, T const& value) : size_(n), host_(n, value) {}
   DeviceVector(std::initializer_list<T> list) : size_(list.size()), host_(list) {}
   DeviceVector(std::vector<T> list) : size_(list.size()), host_(std::move(list)) {}
   template <class Iterator>
