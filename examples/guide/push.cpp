@@ -55,7 +55,7 @@ int main() {
     double push = 0;
     for (ForceOnBody const& f : sim.forces())
       if (f.kind == ForceKind::contact && f.body == "/root/block") push += f.wrench.force.x();
-    if (step % 25 == 0) std::printf("%.2f s: the box pushes with %.0f N\n", sim.time(), push);
+    if (step % 25 == 0) std::printf("%.2f s: the box pushes with %.1f N\n", sim.time(), push);
   }
   view::Picture(sim, {.width = 960, .height = 540}).write("push.png");
 }
