@@ -152,7 +152,7 @@ TEST_CASE("the pressure of SPHFluidForceField at a wall is that of its sums over
   }
 }
 
-TEST_CASE("a box of half the density of the water floats with half of it below the surface") {
+TEST_CASE("a box of half the density of the water floats with half of it below the surface", "[long]") {
   const double d = 0.05, g = 9.81, mass = 1000 * d * d * d;
   const int n = 10, height = 5;
   // the surface of the fluid is half a distance from its particles, and a distance from those of the box
