@@ -184,21 +184,13 @@ struct FrameSpringForceField {
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<FrameSpringForceField>());
-    std::vector<typename Driver::Indices> bodies;
-    std::vector<typename Driver::Rest> rest;
-    for (std::size_t s = 0; s < springs.size(); ++s) {
-      FrameSpring const& spring = springs[s];
-      check_spring_end(where, s, a, spring.first);
-      check_spring_end(where, s, b, spring.second);
-      if (!between && spring.first == spring.second)
-        throw Error(where, text("springs[", s, "] joins body ", spring.first, " to itself; give two bodies"));
-      bodies.push_back({spring.first, spring.second});
-      rest.push_back({Real(spring.stiffnessTranslation),
-                      Real(spring.stiffnessRotation),
-                      Real(spring.damping),
-                      {spring.firstPoint.template cast<Real>(), spring.secondPoint.template cast<Real>()}});
-    }
-    driver.init(bodies, rest);
+    auto restOf = [](std::size_t, FrameSpring const& spring) -> typename Driver::Rest {
+      return {Real(spring.stiffnessTranslation),
+              Real(spring.stiffnessRotation),
+              Real(spring.damping),
+              {spring.firstPoint.template cast<Real>(), spring.secondPoint.template cast<Real>()}};
+    };
+    init_springs(*this, where, springs, a, b, {"body", "bodies"}, restOf);
   }
 };
 
