@@ -248,7 +248,7 @@ std::string cpp_of(std::string const& xml, Entry const& e, ReferenceSources cons
   } catch (sinew::Error const& error) {
     throw Failure{
         badUsage,
-        {text(e.first().name, ": its example in reference_examples.cpp does not run: ", error.what())}};
+        {text(e.first().name, ": its example in reference_*.cpp does not run: ", error.what())}};
   }
 }
 
