@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/force/spring_ends.hpp>
@@ -90,7 +91,7 @@ struct FrameSpringLaw {
     const Real square = t.squaredNorm(), half = std::sqrt(square) / 2;
     const Real s = half < Real(1e-3) ? Real(1) / 12 + square / 720 : (1 - half / std::tan(half)) / square;
     tangent.symmetric = (1 - s * square) * Mat3::Identity() + s * t * t.transpose();
-    tangent.skew = cross(Vec3(t / -2));
+    tangent.skew = cross_matrix(Vec3(t / -2));
   }
 
   void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[2], Deriv (&df)[2], Real k,
@@ -132,14 +133,9 @@ struct FrameSpringLaw {
     from.center = x[1].center;
     return D::difference(from, x[1]).template tail<3>();
   }
-  static Mat3 cross(Vec3 const& a) {
-    Mat3 m;
-    m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-    return m;
-  }
   static Mat<Real, 3, 6> jacobian(Vec3 const& arm) {
     Mat<Real, 3, 6> j;
-    j << Mat3::Identity(), -cross(arm);
+    j << Mat3::Identity(), -cross_matrix(arm);
     return j;
   }
   // what the force at an arm that turns adds: 1/2 ([f]x [r]x + [r]x [f]x)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/mapping/element_measure_mapping.hpp>
 
 #include <Eigen/Geometry>
@@ -36,15 +37,10 @@ struct TriangleAreas {
     Vec<Real, 3> slope(int k) const { return side[std::size_t(k)].cross(normal) / 2; }
     Mat<Real, 3> second(int i, int j) const {
       const Mat<Real, 3> across = Mat<Real, 3>::Identity() - normal * normal.transpose();
-      Mat<Real, 3> m =
-          cross(side[std::size_t(i)]).transpose() * across * cross(side[std::size_t(j)]) * inverse;
-      if (i != j) m += (j == (i + 1) % 3 ? Real(-1) : Real(1)) * cross(normal);
+      Mat<Real, 3> m = cross_matrix(side[std::size_t(i)]).transpose() * across *
+                       cross_matrix(side[std::size_t(j)]) * inverse;
+      if (i != j) m += (j == (i + 1) % 3 ? Real(-1) : Real(1)) * cross_matrix(normal);
       return m / 2;
-    }
-    static Mat<Real, 3> cross(Vec<Real, 3> const& a) {
-      Mat<Real, 3> m;
-      m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-      return m;
     }
   };
 };

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/mapping/element_measure_mapping.hpp>
 
 #include <Eigen/Geometry>
@@ -37,15 +38,13 @@ struct TetrahedronVolumes {
     // [e]x / 6, e from the one to the other of the two points that are left, in the order that makes (i, j,
     // from, to) an odd permutation
     Mat<Real, 3> second(int i, int j) const {
-      Mat<Real, 3> m = Mat<Real, 3>::Zero();
-      if (i == j) return m;
+      if (i == j) return Mat<Real, 3>::Zero();
       std::array<int, 2> left{};
       for (int k = 0, n = 0; k < 4; ++k)
         if (k != i && k != j) left[std::size_t(n++)] = k;
       const bool odd = (i > j) != ((std::max(i, j) - std::min(i, j)) % 2 == 0);
-      const Vec<Real, 3> e = (edge[std::size_t(left[1])] - edge[std::size_t(left[0])]) / Real(odd ? 6 : -6);
-      m << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
-      return m;
+      return cross_matrix(
+          Vec<Real, 3>((edge[std::size_t(left[1])] - edge[std::size_t(left[0])]) / Real(odd ? 6 : -6)));
     }
   };
 };
