@@ -30,17 +30,12 @@ auto scene(Mesh const& mesh, Kind const& kind, int refresh) {
   if (kind.name == "contrast")
     for (std::size_t t = 0; t < young.size(); ++t)
       if (int(4 * mesh.positions[std::size_t(mesh.tetrahedra[t][0])][1]) % 2 == 0) young[t] *= 1e4;
-  return Simulation{node<"root">(
-      Gravity{{0, -9.81, 0}},
-      EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+  return solved_body<Vec3d>(
+      mesh,
+      corotational<Vec3d>(young, kind.poisson),
+      damped_euler(),
       MultigridLinearSolver<>{
-          .iterations = 1000, .refresh = refresh, .warp = refresh > 1, .smootherDegree = kind.degree},
-      TetrahedronTopology{mesh.tetrahedra},
-      MechanicalObject<Vec3d>{mesh.positions},
-      DiagonalMass<Vec3d>{.massDensity = 1},
-      TetrahedronFEMForceField<Vec3d>{
-          .youngModulus = young, .poissonRatio = kind.poisson, .method = RotationMethod::gradient},
-      FixedConstraint<Vec3d>{.indices = {3, 39, 64}})};
+          .iterations = 1000, .refresh = refresh, .warp = refresh > 1, .smootherDegree = kind.degree});
 }
 
 LinearSystem system_of(CompressedRowSparseMatrixMat3x3d const& a, Eigen::VectorXd const& b,
