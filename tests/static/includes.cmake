@@ -46,11 +46,11 @@ function(sinew_by_includes result folder)
   list(TRANSFORM numbered REPLACE "^[0-9]+ " "")
   set(${result} ${numbered} PARENT_SCOPE)
 endfunction()
-# the first of headers, and before each as many as there are that it includes, one after the other
+# the first of headers, and before each as many as there are that it includes, one after the other; not what only emscripten includes
 function(sinew_chain result folder)
   set(chain)
   foreach(header ${ARGN})
-    if(NOT chain OR header IN_LIST included)
+    if(NOT chain OR (header IN_LIST included AND NOT header STREQUAL sinew/core/emscripten.hpp))
       list(PREPEND chain ${header})
       sinew_includes(included ${folder} ${header})
     endif()
