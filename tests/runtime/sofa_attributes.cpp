@@ -120,7 +120,6 @@ std::string in_sofas_words(std::string const& value) {
 TEST_CASE("what a scene leaves out has SOFA's default, or the exception has a reason") {
   const std::map<std::string, std::string_view> exceptions{
       {"CGLinearSolver.threshold", "1e-5 ends iterations of light bodies before they begin; docs/sofa.md"},
-      {"ContinuousIntersection.continuousCollisionType", "none makes it a MinProximityIntersection"},
       {"CubeTopology.nx", "0 is no grid"},
       {"CubeTopology.ny", "0 is no grid"},
       {"CubeTopology.nz", "0 is no grid"},
