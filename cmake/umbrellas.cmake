@@ -26,7 +26,7 @@ foreach(umbrella include/sinew/contact.hpp include/sinew/control.hpp include/sin
       file(GLOB found RELATIVE ${include} ${include}/sinew/${folder}/*.hpp)
       foreach(header ${found})
         file(READ ${include}/${header} content)
-        if(content MATCHES "using Role = |= MeshCollisionModel<|= SolidElementFEMForceField<" AND NOT content MATCHES "header = \"${header}\"")
+        if(content MATCHES "using Role = |= MeshCollisionModel<|= (SolidElementFEMForceField|ElementMeasureMapping)<" AND NOT content MATCHES "header = \"${header}\"")
           list(APPEND headers "#include <${header}>\n")
         endif()
       endforeach()

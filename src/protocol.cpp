@@ -644,10 +644,10 @@ std::vector<SceneFile> placed(std::vector<SceneFile> files) {
       for (std::size_t at = words.find(called); at != words.npos; at = words.find(called, at + 1)) {
         const std::size_t end = at + called.size();
         if (end == words.size() || ends.find(words[end]) == ends.npos) continue;
-        const std::size_t farthest = at > longestFileName ? at - longestFileName : 0;
-        const std::size_t before = std::string_view(words).substr(farthest, at - farthest).find_last_of(ends);
-        if (before == ends.npos && farthest > 0) continue;  // too long for a name
-        const std::size_t begin = before == ends.npos ? 0 : farthest + before + 1;
+        const std::size_t earliest = at > longestFileName ? at - longestFileName : 0;
+        const std::size_t before = std::string_view(words).substr(earliest, at - earliest).find_last_of(ends);
+        if (before == ends.npos && earliest > 0) continue;  // too long for a name
+        const std::size_t begin = before == ends.npos ? 0 : earliest + before + 1;
         place(folder + words.substr(begin, end - begin), file.content);
       }
     }

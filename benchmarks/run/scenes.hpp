@@ -17,6 +17,7 @@
 #include <sinew/topology/tetrahedron_topology.hpp>
 
 #include <array>
+#include <vector>
 
 namespace bench {
 
@@ -29,20 +30,30 @@ typename D::VecCoord points_of(Mesh const& mesh) {
   return points;
 }
 
-/// One corotational body: density 1, nu 0.3, points 3, 39 and 64 fixed, implicit Euler with Rayleigh damping
-/// 0.1/0.1.
+inline EulerImplicitSolver damped_euler() { return {.rayleighStiffness = 0.1, .rayleighMass = 0.1}; }
+
+template <class D>
+TetrahedronFEMForceField<D> corotational(std::vector<double> youngModulus = {3000},
+                                         double poissonRatio = 0.3) {
+  return {.youngModulus = youngModulus, .poissonRatio = poissonRatio, .method = RotationMethod::gradient};
+}
+
+/// One body of density 1, its points 3, 39 and 64 fixed, and what solves it.
+template <class D, class... Solvers>
+auto solved_body(Mesh const& mesh, TetrahedronFEMForceField<D> const& force, Solvers const&... solvers) {
+  return Simulation{node<"root">(Gravity{{0, -9.81, 0}},
+                                 solvers...,
+                                 TetrahedronTopology{mesh.tetrahedra},
+                                 MechanicalObject<D>{points_of<D>(mesh)},
+                                 DiagonalMass<D>{.massDensity = 1},
+                                 force,
+                                 FixedConstraint<D>{.indices = {3, 39, 64}})};
+}
+
+/// The same, corotational, nu 0.3, with implicit Euler and Rayleigh damping 0.1/0.1.
 template <class D, class Linear>
-auto body(Mesh const& mesh, Linear linear, double youngModulus = 3000) {
-  return Simulation{node<"root">(
-      Gravity{{0, -9.81, 0}},
-      EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-      linear,
-      TetrahedronTopology{mesh.tetrahedra},
-      MechanicalObject<D>{points_of<D>(mesh)},
-      DiagonalMass<D>{.massDensity = 1},
-      TetrahedronFEMForceField<D>{
-          .youngModulus = {youngModulus}, .poissonRatio = 0.3, .method = RotationMethod::gradient},
-      FixedConstraint<D>{.indices = {3, 39, 64}})};
+auto body(Mesh const& mesh, Linear const& linear, double youngModulus = 3000) {
+  return solved_body<D>(mesh, corotational<D>({youngModulus}), damped_euler(), linear);
 }
 
 /// A grid of unit cells with springs along the lines, both diagonals of each quad and the four of each cube,
@@ -50,7 +61,7 @@ auto body(Mesh const& mesh, Linear linear, double youngModulus = 3000) {
 template <class D, class Linear>
 auto spring_grid(std::array<int, 3> n, Linear linear) {
   return Simulation{node<"root">(Gravity{{0, -9.81, 0}},
-                                 EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
+                                 damped_euler(),
                                  linear,
                                  RegularGridTopology{.n = n, .max = {n[0] - 1.0, n[1] - 1.0, n[2] - 1.0}},
                                  MechanicalObject<D>{},

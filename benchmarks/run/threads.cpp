@@ -44,17 +44,7 @@ void use(Sim& sim, int count) {
 
 template <class D, class Matrix>
 void measure(char const* kind, Mesh const& mesh, double time, std::vector<int> const& counts) {
-  Simulation sim{
-      node<"root">(Threads{},
-                   Gravity{{0, -9.81, 0}},
-                   EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-                   all_iterations<Matrix>(),
-                   TetrahedronTopology{mesh.tetrahedra},
-                   MechanicalObject<D>{points_of<D>(mesh)},
-                   DiagonalMass<D>{.massDensity = 1},
-                   TetrahedronFEMForceField<D>{
-                       .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::gradient},
-                   FixedConstraint<D>{.indices = {3, 39, 64}})};
+  auto sim = solved_body<D>(mesh, corotational<D>(), Threads{}, damped_euler(), all_iterations<Matrix>());
   sim.init();
   int steps = 0;
   for (const int count : counts) {

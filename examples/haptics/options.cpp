@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
-
-#include <CLI/CLI.hpp>
+#include "support/command_line.hpp"
 
 namespace examples {
 
@@ -25,13 +24,7 @@ bool read_options(int argc, char** argv, HapticOptions& options, int& status) {
       ->capture_default_str();
   app.add_option("--priority", options.priority, "Of SCHED_FIFO, 1 to 99; 0 for an ordinary thread")
       ->capture_default_str();
-  try {
-    app.parse(argc, argv);
-  } catch (CLI::ParseError const& e) {
-    status = app.exit(e);
-    return false;
-  }
-  return true;
+  return parsed(app, argc, argv, status);
 }
 
 }  // namespace examples

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "options.hpp"
-
-#include <sinew/core/error.hpp>
-
-#include <CLI/CLI.hpp>
+#include "support/command_line.hpp"
 
 #include <cstdio>
 
@@ -31,32 +28,16 @@ bool read_options(int argc, char** argv, LaparoscopyOptions& options, int& statu
   app.add_option("--resolution",
                  resolution,
                  "Of the liver: about how many tetrahedra (default 1800), or points of the grid (17x8x10)");
-  app.add_option("--time", options.time, "Seconds to simulate; the script takes 20 and starts again")
-      ->capture_default_str();
-  app.add_option("--dt", options.dt, "Seconds a step")->capture_default_str();
+  add_times(app, options, "Seconds to simulate; the script takes 20 and starts again");
   app.add_option("--gravity", options.scene.gravity, "Gravity, to the back [m/s^2]")->capture_default_str();
   app.add_option("--iterations", options.scene.iterations, "Conjugate-gradient iterations a step")
       ->capture_default_str();
-  app.add_option("--every", options.every, "Steps from one picture to the next")
-      ->capture_default_str()
-      ->check(CLI::PositiveNumber);
+  add_every(app, options);
   app.add_option("--output", options.output, "Folder to write to; '' writes nothing")->capture_default_str();
   app.add_option(
       "--picture", options.picture, "Draw three moments of the first 18 seconds to this file (.svg)");
-  try {
-    app.parse(argc, argv);
-  } catch (CLI::ParseError const& e) {
-    status = app.exit(e);
-    return false;
-  }
-  const double steps = options.time / options.dt;
-  if (!(options.dt > 0) || !(options.time > 0) || !(steps < 1e9))
-    throw sinew::Error("--time and --dt",
-                       sinew::text("are ",
-                                   options.time,
-                                   " s and ",
-                                   options.dt,
-                                   " s, but must be greater than 0 and make less than 1e9 steps"));
+  if (!parsed(app, argc, argv, status)) return false;
+  check_times(options);
   if (model == "grid") {
     options.grid = grid_of(resolution.empty() ? "17x8x10" : resolution);
   } else if (!resolution.empty()) {

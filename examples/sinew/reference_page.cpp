@@ -246,9 +246,8 @@ std::string cpp_of(std::string const& xml, Entry const& e, ReferenceSources cons
     if (begin == baked.npos || end == baked.npos) throw sinew::Error(path, "no function came out of bake");
     return text(out, "\nusing namespace sinew;\n\n", baked.substr(begin, end + 3 - begin));
   } catch (sinew::Error const& error) {
-    throw Failure{
-        badUsage,
-        {text(e.first().name, ": its example in reference_examples.cpp does not run: ", error.what())}};
+    throw Failure{badUsage,
+                  {text(e.first().name, ": its example in reference_*.cpp does not run: ", error.what())}};
   }
 }
 

@@ -50,19 +50,6 @@ double rate(int steps, Run&& run) {
   return steps / times[2];
 }
 
-template <class D>
-auto explicit_body(Mesh const& mesh) {
-  return Simulation{
-      node<"root">(Gravity{{0, -9.81, 0}},
-                   EulerExplicitSolver{},
-                   TetrahedronTopology{mesh.tetrahedra},
-                   MechanicalObject<D>{points_of<D>(mesh)},
-                   DiagonalMass<D>{.massDensity = 1},
-                   TetrahedronFEMForceField<D>{
-                       .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::gradient},
-                   FixedConstraint<D>{.indices = {3, 39, 64}})};
-}
-
 template <class D, class Sim>
 void measure(Mesh const& mesh, Options const& o, Sim sim, double dt) {
   const double start = now();
@@ -162,7 +149,7 @@ void run(std::vector<std::string> const& words, Options o) {
   if (o.scene == "implicit" && words.size() == 2)
     measure<D>(mesh, o, body<D>(mesh, all_iterations<CompressedRowSparseMatrixMat3x3d>()), 0.02);
   else if (o.scene == "explicit" && words.size() == 2)
-    measure<D>(mesh, o, explicit_body<D>(mesh), 2e-5);
+    measure<D>(mesh, o, solved_body<D>(mesh, corotational<D>(), EulerExplicitSolver{}), 2e-5);
   else if (o.scene == "copies" && words.size() == 3)
     copies<D>(mesh, std::atoi(words[2].c_str()), o);
   else

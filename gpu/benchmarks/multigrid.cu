@@ -74,26 +74,11 @@ struct Timed : Linear {
 };
 
 template <class D, class Linear>
-auto cube(Mesh const& mesh, Linear linear, int threads) {
-  return Simulation{
-      node<"root">(Threads{threads},
-                   Gravity{{0, -9.81, 0}},
-                   EulerImplicitSolver{.rayleighStiffness = 0.1, .rayleighMass = 0.1},
-                   linear,
-                   TetrahedronTopology{mesh.tetrahedra},
-                   MechanicalObject<D>{points_of<D>(mesh)},
-                   DiagonalMass<D>{.massDensity = 1},
-                   TetrahedronFEMForceField<D>{
-                       .youngModulus = {3000}, .poissonRatio = 0.3, .method = RotationMethod::gradient},
-                   FixedConstraint<D>{.indices = {3, 39, 64}})};
-}
-
-template <class D, class Linear>
 void measure(Mesh const& mesh, char const* name, Linear linear, int threads) {
   using Solver = Timed<Linear>;
   const Solver timed{linear};
   const double start = now();
-  auto sim = cube<D>(mesh, timed, threads);
+  auto sim = solved_body<D>(mesh, corotational<D>(), Threads{threads}, damped_euler(), timed);
   sim.init();
   const double initialised = now() - start;
   Solver& solver = sim.root().template get<Solver>();

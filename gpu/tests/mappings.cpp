@@ -158,7 +158,7 @@ void identity() {
 // fewer points than the parent, and more, with points that several follow
 template <class In, class Out>
 void subset() {
-  for (const std::size_t n : {60, 900}) {
+  for (const std::size_t n : {60u, 900u}) {
     Numbers next;
     const auto x = coords<Host<In>>(300, next);
     const auto y = coords<Host<Out>>(n, next);
@@ -188,7 +188,7 @@ void barycentric() {
       }
   std::vector<typename In::Coord> x;
   for (auto const& p : tetrahedra.positions) x.push_back(p.template cast<typename In::Real>());
-  for (const std::size_t n : {20, 700}) {
+  for (const std::size_t n : {20u, 700u}) {
     Numbers next;
     const auto y = coords<Host<Out>>(n, next);
     const std::size_t crossing = across<In, Out> ? std::min<std::size_t>(n, 80) : 0;
@@ -202,7 +202,7 @@ void barycentric() {
 // one body with 1,000 points, and 7 bodies of which one carries nothing
 template <class In, class Out>
 void rigid() {
-  for (const std::size_t bodies : {1, 7}) {
+  for (const std::size_t bodies : {1u, 7u}) {
     Numbers next;
     const auto x = coords<Host<In>>(bodies, next);
     const auto y = coords<Host<Out>>(1000, next);

@@ -95,6 +95,7 @@
 #include <sinew/mapping/distance_mapping.hpp>
 #include <sinew/mapping/distance_multi_mapping.hpp>
 #include <sinew/mapping/distance_to_plane_mapping.hpp>
+#include <sinew/mapping/element_measure_mapping.hpp>
 #include <sinew/mapping/hexahedron_composite_fem_mapping.hpp>
 #include <sinew/mapping/identity_mapping.hpp>
 #include <sinew/mapping/identity_multi_mapping.hpp>

@@ -76,7 +76,7 @@ TEST_CASE("places as far apart as numbers go") {
 
 TEST_CASE("absent primitives are not reported, and may come back") {
   Balls balls(200, 5, 9);
-  for (const std::size_t present : {0, 1, 50, 199}) {
+  for (const std::size_t present : {0u, 1u, 50u, 199u}) {
     auto boxes = balls.boxes();
     const auto all = boxes;
     std::mt19937 random(4);

@@ -85,7 +85,7 @@ TEST_CASE("a body that is nowhere is an error with the place of the caller") {
 TEST_CASE("pairs are sorted, few and many") {
   std::mt19937 random(3);
   PairSorter sorter;
-  for (const std::size_t n : {0, 1, 10, 1000, 20000}) {
+  for (const std::size_t n : {0u, 1u, 10u, 1000u, 20000u}) {
     std::vector<BoxPair> pairs;
     for (std::size_t k = 0; k < n; ++k) pairs.push_back({int(random() % 300), int(random() % 1000)});
     const auto expected = sorted(pairs);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Boxes, capsules and solids of tetrahedra in contact by multipliers: what sticks, slides, rolls and stands.
+#include <sinew/collision/continuous_intersection.hpp>
 #include <sinew/collision/obb_collision_model.hpp>
 #include <sinew/collision/rigid_capsule_collision_model.hpp>
 #include <sinew/collision/tetrahedron_collision_model.hpp>
@@ -19,15 +20,16 @@ namespace {
 constexpr double g = 10, dt = 0.005, slope = 0.3, skin = 0.01;
 
 /// A slab whose upper side is z = 0, with gravity as on a slope down along x.
-template <class Body>
-auto on_slope(double angle, double mu, Body body) {
+template <class Body, class Intersection = MinProximityIntersection>
+auto on_slope(double angle, double mu, Body body,
+              Intersection intersection = {.alarmDistance = 0.1, .contactDistance = skin}) {
   return Simulation{node<"root">(
       FreeMotionAnimationLoop{},
       BlockGaussSeidelConstraintSolver{.maxIterations = 20000, .tolerance = 1e-12},
       DefaultPipeline{},
       BruteForceBroadPhase{},
       BVHNarrowPhase{},
-      MinProximityIntersection{.alarmDistance = 0.1, .contactDistance = skin},
+      intersection,
       Contacts{.response = "FrictionContactConstraint", .responseParams = text("mu=", mu)},
       Gravity{{g * std::sin(angle), 0, -g * std::cos(angle)}},
       node<"slab">(
@@ -69,6 +71,26 @@ TEST_CASE("a box on a slope sticks below the angle of friction, and slides above
     CHECK(sim.root().get<Contacts>().contacts.size() == 4);
     CHECK(std::abs(force_on_slab(sim)[2]) == Approx(2 * g * std::cos(slope)).epsilon(1e-6));
   }
+}
+
+TEST_CASE("a box that starts to fall through a slab within a step is stopped on the way of its free motion") {
+  const RigidMass<double, 3> mass{2, 0.1 * Eigen::Matrix3d::Identity()};
+  auto sim = on_slope(
+      0,
+      0,
+      rigid(rigid_at({0, 0, 2}), mass, OBBCollisionModel<Rigid3d>{.extents = {{0.4, 0.3, 0.1}}}),
+      ContinuousIntersection{
+          .alarmDistance = 0.02, .contactDistance = skin, .continuousCollisionType = StepMotion::freeMotion});
+  sim.root().get<Gravity>().gravity = {0, 0, -1000};  // 10 m in a step
+  sim.init();
+  auto const& s = sim.at<"body">().state();
+  for (int i = 0; i < 4; ++i) {
+    sim.animate(0.1);
+    INFO(i);
+    CHECK(s.position[0].center[2] == Approx(0.1 + skin).margin(1e-6));
+    CHECK(s.velocity[0].tail<3>().norm() < 1e-6);
+  }
+  CHECK(std::abs(force_on_slab(sim)[2]) == Approx(2 * 1000).epsilon(1e-6));
 }
 
 TEST_CASE("a capsule rolls down a slope with g sin / (1 + I / (m r^2))") {

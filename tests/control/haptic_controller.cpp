@@ -50,7 +50,7 @@ Energies let_go(HapticController c, double mass, double damping, long ticks) {
   hand.stiffness = hand.damping = hand.angularStiffness = hand.angularDamping = 0;
   hand.velocity << 0.01, 0, 0, 0, 0, 0.1;
   Energies e{0, 0};
-  for (long i = 0; i < ticks; ++i) {
+  for (int i = 0; i < ticks; ++i) {
     hand.write(tick(c, i * T, hand.read(i * T)));
     const Rigid3d::Deriv d = Rigid3d::difference({}, hand.pose);
     const double energy = hand.energy() + 0.5 * (c.stiffness * d.head<3>().squaredNorm() +

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include "curved_wire.hpp"
 #include "error_of.hpp"
 #include "one_component.hpp"
 
 #include <sinew/control/interventional_radiology_controller.hpp>
-#include <sinew/engine/wire_rest_shape.hpp>
 #include <sinew/force/adaptive_beam_force_field.hpp>
 #include <sinew/mass/adaptive_beam_mass.hpp>
 #include <sinew/scene/simulation.hpp>
@@ -24,23 +24,8 @@ using Frames = Rigid3d::VecCoord;
 
 namespace {
 
-// a wire with a curved tip, of 1 mm
-WireRestShape<Rigid3d> wire() {
-  const RodSection section{.length = 0.2,
-                           .youngModulus = 1e9,
-                           .poissonRatio = 0.3,
-                           .massDensity = 6000,
-                           .radius = 5e-4,
-                           .nbBeams = 10,
-                           .nbEdgesCollis = 40};
-  RodSection tip = section;
-  tip.length = 0.04, tip.nbBeams = 5, tip.nbEdgesCollis = 10, tip.spireDiameter = 0.04;
-  WireRestShape<Rigid3d> shape{.wireMaterials = {section, tip}};
-  shape.update("wire");
-  return shape;
-}
 auto alone(Controller const& controller) {
-  const auto shape = wire();
+  const auto shape = curved_wire();
   Controller own = controller;
   own.instruments = shape.beams;
   return Simulation{node<"root">(EulerImplicitSolver{.rayleighStiffness = 0.02},
@@ -65,7 +50,7 @@ double strain(Frames const& x, std::vector<RodBeam> const& beams, std::size_t i)
 }  // namespace
 
 TEST_CASE("a wire is pushed out of its sheath, keeps its length, and its tip curls as it comes out") {
-  const auto shape = wire();
+  const auto shape = curved_wire();
   Rigid3d::Coord start = Rigid3d::zero();
   start.center = {0.1, 0.2, 0.3};
   start.orientation = Quaterniond(Eigen::AngleAxisd(0.7, Vector3d(1, 2, -1).normalized()));
@@ -118,7 +103,7 @@ TEST_CASE("a wire is pushed out of its sheath, keeps its length, and its tip cur
 }
 
 TEST_CASE("a wire that starts with a part out starts as it rests, and after a reset goes the same way") {
-  const auto shape = wire();
+  const auto shape = curved_wire();
   auto sim = alone({.xtip = 0.08, .speed = 0.05});
   sim.init();
   auto const& x = sim.root().state().position;
@@ -137,7 +122,7 @@ TEST_CASE("a wire that starts with a part out starts as it rests, and after a re
 }
 
 TEST_CASE("wires that cannot be pushed are refused") {
-  const auto shape = wire();
+  const auto shape = curved_wire();
   const Frames x(16, Rigid3d::zero());
   auto refuses = [&](Controller c, Frames const& frames, std::initializer_list<std::string_view> words) {
     one::refuses(c, frames, {}, words);

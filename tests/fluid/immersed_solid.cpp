@@ -87,7 +87,7 @@ TEST_CASE("a sphere that is let go has the acceleration of its weight, its lift 
   }
 }
 
-TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, however light") {
+TEST_CASE("a box that is lighter than water floats at Archimedes' depth, level, however light", "[long]") {
   for (const double density : {500., 50.}) {
     const double w = 0.3, h = 0.2, mass = density * w * h;
     const std::vector<Eigen::Vector2d> corners{
@@ -205,7 +205,8 @@ TEST_CASE("a body that is pushed shares its momentum with the fluid") {
   CHECK((moment - after.load.tail<3>()).norm() < 1e-9 * force.norm());
 }
 
-TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring it bears weight less lift") {
+TEST_CASE("a body does not feel its own acceleration twice: at rest on a spring it bears weight less lift",
+          "[long]") {
   const Mesh cube = shapes::box({-0.2, -0.2, -0.2}, {0.2, 0.2, 0.2});
   const double volume = 0.4 * 0.4 * 0.4, mass = 2500 * volume, stiffness = 2e5;
   Simulation sim{node<"root">(

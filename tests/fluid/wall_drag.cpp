@@ -102,14 +102,14 @@ TEST_CASE("a flow through an array of cylinders has the drag of Sangani and Acri
   CHECK(std::abs(fine) < std::abs(coarse) / 3);
 }
 
-TEST_CASE("a flow through an array of spheres has the drag of Hasimoto") {
+TEST_CASE("a flow through an array of spheres has the drag of Hasimoto", "[long]") {
   // F = 6 pi mu a U / (1 - 1.7601 c^(1/3) + c - 1.5593 c^2) (1959)
   const double a = 0.2, c = 4 * pi / 3 * a * a * a;
   const double expected = (1 - 1.7601 * std::cbrt(c) + c - 1.5593 * c * c) / (6 * pi * a);
   CHECK(mobility<3>(16, sphere(a, {0.513, 0.487, 0.505})) == Approx(expected).epsilon(0.2));
 }
 
-TEST_CASE("a solid of a fiftieth of the fluid's density drifts by its force and its drag") {
+TEST_CASE("a solid of a fiftieth of the fluid's density drifts by its force and its drag", "[long]") {
   // A force F on it, and the opposite on the fluid: at last it goes through the fluid as that goes through an
   // array that stands under a gradient of pressure of F over the room of the fluid.
   const int cells = 32;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "one_component.hpp"
+#include "frames.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
 #include <sinew/context/gravity.hpp>
@@ -20,6 +20,9 @@ using namespace sinew;
 using Eigen::MatrixXd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using frames::frame;
+using frames::moved;
+using frames::wave;
 using one::force;
 using one::product;
 using one::ready;
@@ -43,12 +46,6 @@ const RodSection wire{.length = 1,
 const BeamSection round = circular_section(2e-3, 0, 0.25);
 const double EI = 2e9 * round.aboutY, GJ = 8e8 * round.torsion, line = 1000 * round.area;
 
-Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& rotation = Quaterniond::Identity()) {
-  Rigid3d::Coord x;
-  x.center = center;
-  x.orientation = rotation;
-  return x;
-}
 /// The frames of beams at rest, the first at the origin.
 VecCoord at_rest(std::vector<RodBeam> const& beams) {
   VecCoord x{frame({0, 0, 0})};
@@ -67,16 +64,6 @@ Rod rod(std::vector<RodBeam> const& beams, bool shear = false) {
 }
 Mass mass_of(std::vector<RodBeam> const& beams, bool shear = false) {
   return ready(Mass{.interpolation = beams, .shearStressComputation = shear}, at_rest(beams));
-}
-VecDeriv wave(std::size_t n, double size, int number = 0) {
-  VecDeriv dx(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (int c = 0; c < 6; ++c) dx[i][c] = size * std::sin(1 + 7 * number + 3 * int(i) + 5 * c * c);
-  return dx;
-}
-VecCoord moved(VecCoord x, VecDeriv const& dx, double h = 1) {
-  for (std::size_t i = 0; i < x.size(); ++i) Rigid3d::increment(x[i], dx[i] * h);
-  return x;
 }
 /// The matrix of f(dx), without the first frame.
 template <class F>

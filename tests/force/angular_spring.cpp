@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "one_component.hpp"
+#include "frames.hpp"
 #include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
@@ -17,7 +17,6 @@ using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Vector3d;
 using one::force;
-using one::product;
 using one::ready;
 using one::refuses;
 using std::numbers::pi;
@@ -78,27 +77,7 @@ TEST_CASE("the tangent is the symmetric part of the derivative of the torques, f
   auto x = chain;
   x[1].orientation = AngleAxisd(1.9, Vector3d(2, -1, 2).normalized());
   x[2].orientation = AngleAxisd(2.4, Vector3d(0, 0.6, 0.8));
-  for (int trial = 0; trial < 4; ++trial) {
-    Rigid3d::VecDeriv dx(3);
-    for (int i = 0; i < 3; ++i)
-      for (int c = 0; c < 6; ++c) dx[std::size_t(i)][c] = std::sin(1 + 7 * trial + 3 * i + 5 * c * c);
-    const double h = 1e-5;
-    auto at = [&](double s) {
-      auto y = x;
-      for (std::size_t i = 0; i < 3; ++i) Rigid3d::increment(y[i], dx[i] * s);
-      return force(springs, y);
-    };
-    const auto plus = at(h), minus = at(-h);
-    force(springs, x);
-    const auto df = product(springs, dx, 1, 0);
-    double slope = 0, tangent = 0;
-    for (std::size_t i = 0; i < 3; ++i) {
-      slope += dx[i].dot(plus[i] - minus[i]) / (2 * h);
-      tangent += dx[i].dot(df[i]);
-    }
-    // differences of values of order 100 over 2e-5: rounding 1e-9, truncation 1e-8
-    CHECK(tangent == Approx(slope).epsilon(1e-6));
-  }
+  frames::check_tangent(springs, x, 1e-6);
 }
 
 // A body with inertia I on a spring to a fixed body turns as theta cos(w t), w^2 = k / I; two free bodies,

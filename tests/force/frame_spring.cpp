@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Springs between points and axes of rigid bodies.
-#include "one_component.hpp"
+#include "frames.hpp"
 
 #include <sinew/force/frame_spring.hpp>
 #include <sinew/runtime/value_text.hpp>
@@ -10,16 +10,11 @@
 namespace test_frame_spring {
 
 using namespace sinew;
+using frames::frame;
 using Springs = FrameSpringForceField<Rigid3d>;
 
 namespace {
 
-Rigid3d::Coord frame(Eigen::Vector3d const& center, Eigen::Vector3d const& turn = {0, 0, 0}) {
-  Rigid3d::Coord x = Rigid3d::zero();
-  x.center = center;
-  if (turn.norm() > 0) x.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  return x;
-}
 Springs made(FrameSpring spring) {
   spring.second = 1;
   return one::ready(Springs{.springs = {spring}}, {frame({0, 0, 0}), frame({0, 0, 0})});

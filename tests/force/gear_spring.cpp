@@ -2,6 +2,7 @@
 // Gears: forces from their energy, ratios and turns, bearings in a body and in the world, words of scene
 // files.
 #include "equilibrium.hpp"
+#include "frames.hpp"
 
 #include <sinew/force/gear_spring.hpp>
 #include <sinew/mechanics.hpp>
@@ -16,17 +17,12 @@ namespace test_gear_spring {
 using namespace sinew;
 using Gears = GearSpringForceField<Rigid3d>;
 using Eigen::Vector3d;
+using frames::frame;
 
 namespace {
 
 const double pi = std::acos(-1.0);
 
-Rigid3d::Coord frame(Vector3d const& center, Vector3d const& turn = {0, 0, 0}) {
-  Rigid3d::Coord x = Rigid3d::zero();
-  x.center = center;
-  if (turn.norm() > 0) x.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  return x;
-}
 /// A carrier, and gears 1 and 2 in it, which turn about its z.
 GearSpring pair_of(double ratio) {
   return {.firstParent = 0,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Joints as springs: what is free and what is held, limits, words of scene files.
-#include "one_component.hpp"
+#include "frames.hpp"
 
 #include <sinew/force/joint_spring.hpp>
 #include <sinew/runtime/value_text.hpp>
@@ -10,16 +10,11 @@
 namespace test_joint_spring {
 
 using namespace sinew;
+using frames::frame;
 using Joints = JointSpringForceField<Rigid3d>;
 
 namespace {
 
-Rigid3d::Coord frame(Eigen::Vector3d const& center, Eigen::Vector3d const& turn = {0, 0, 0}) {
-  Rigid3d::Coord x = Rigid3d::zero();
-  x.center = center;
-  if (turn.norm() > 0) x.orientation = Eigen::AngleAxisd(turn.norm(), turn.normalized());
-  return x;
-}
 Joints made(JointSpring spring) {
   spring.second = 1;
   return one::ready(Joints{.springs = {spring}}, {frame({0, 0, 0}), frame({0, 0, 0})});

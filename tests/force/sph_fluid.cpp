@@ -124,7 +124,8 @@ TEST_CASE("points in cells have the neighbours that a search of all pairs finds,
   }
 }
 
-TEST_CASE("each particle has the pairs that a search of all finds, in the first loop and later ones") {
+TEST_CASE("each particle has the pairs that a search of all finds, in the first loop and later ones",
+          "[long]") {
   auto check = [](auto particles, std::vector<Eigen::Vector3d> const& x, double radius) {
     using Particles = decltype(particles);
     particles.sort(x, radius, "test");

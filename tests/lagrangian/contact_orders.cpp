@@ -116,7 +116,8 @@ TEST_CASE("another order of bodies, and so of contacts, has the same motion to t
   CHECK(difference(sweeps, convex) < 1e-6);
 }
 
-TEST_CASE("a step with contacts by multipliers has the same bits with any number of threads, and twice") {
+TEST_CASE("a step with contacts by multipliers has the same bits with any number of threads, and twice",
+          "[long]") {
   auto check = [](auto solver, auto linear) {
     const auto one = soft_on_floor(solver, linear, 1);
     auto copy = one;

@@ -105,7 +105,7 @@ Vector3d sum_of_velocities(State const& s) {
 
 }  // namespace
 
-TEST_CASE("a stack of five boxes stands") {
+TEST_CASE("a stack of five boxes stands", "[long]") {
   auto sim = constrained_scene(
       near_by(), 0.5, fixed_floor(), box<"a">(0), box<"b">(1), box<"c">(2), box<"d">(3), box<"e">(4));
   auto& solver = sim.root().get<BlockGaussSeidelConstraintSolver>();

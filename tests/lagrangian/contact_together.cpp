@@ -32,7 +32,7 @@ const ConvexConstraintSolver convex{.tolerance = 1e-8, .momentumTolerance = 1e-8
 
 }  // namespace
 
-TEST_CASE("explicit solvers: a soft block lands on the floor, which has its weight at the end") {
+TEST_CASE("explicit solvers: a soft block lands on the floor, which has its weight at the end", "[long]") {
   // the time step is a tenth of what 1e4 Pa and 1000 kg/m^3 allow for cells of 0.1 m
   const Mesh mesh = regular_grid_tetrahedra(4, 4, 3, {-0.15, -0.15, 0.02}, {0.15, 0.15, 0.22});
   auto lands = [&](auto solver, auto ode, double tolerance) {
@@ -87,7 +87,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("self-contact: a soft C closes under its weight, and its lips touch") {
+TEST_CASE("self-contact: a soft C closes under its weight, and its lips touch", "[long]") {
   // two arms, 0.4 m long and 0.1 m high, of one body that is held at its back
   const Mesh lower = regular_grid_tetrahedra(9, 3, 3, {0, 0, 0}, {0.4, 0.1, 0.1}),
              upper = regular_grid_tetrahedra(9, 3, 3, {0, 0, 0.13}, {0.4, 0.1, 0.23});

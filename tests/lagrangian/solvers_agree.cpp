@@ -85,7 +85,7 @@ std::vector<double> numbers_of(StandardSimulation& sim) {
 
 }  // namespace
 
-TEST_CASE("UnbuiltGaussSeidelConstraintSolver: scenes move as with a compliance that is formed") {
+TEST_CASE("UnbuiltGaussSeidelConstraintSolver: scenes move as with a compliance that is formed", "[long]") {
   for (const double regularization : {0., 1e-4}) {
     const LinearSolverConstraintCorrection ofChain{.regularizationTerm = regularization};
     const UncoupledConstraintCorrection<Vec3d> ofBall{.defaultCompliance = 1 / 0.7};
@@ -112,7 +112,7 @@ TEST_CASE("UnbuiltGaussSeidelConstraintSolver: scenes move as with a compliance 
   }
 }
 
-TEST_CASE("LCPConstraintSolver: build_lcp changes nothing of the motion") {
+TEST_CASE("LCPConstraintSolver: build_lcp changes nothing of the motion", "[long]") {
   const LinearSolverConstraintCorrection ofChain{};
   const UncoupledConstraintCorrection<Vec3d> ofBall{.defaultCompliance = 1 / 0.7};
   LCPConstraintSolver solver = exact<LCPConstraintSolver>();
@@ -129,7 +129,8 @@ TEST_CASE("LCPConstraintSolver: build_lcp changes nothing of the motion") {
   for (std::size_t i = 0; i < a.size(); ++i) CHECK(a[i] == Approx(b[i]).margin(1e-9));
 }
 
-TEST_CASE("constraint solvers give out the multipliers of constraints and contacts in their order") {
+TEST_CASE("constraint solvers give out the multipliers of constraints and contacts in their order",
+          "[long]") {
   auto look = []<class Solver>(std::type_identity<Solver>) {
     INFO(Solver::className);
     Solver solver = exact<Solver>();

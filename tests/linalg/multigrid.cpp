@@ -127,9 +127,12 @@ TEST_CASE("a cycle is symmetric and positive definite") {
   for (const double mass : {1e-3, 1.0}) {
     Body body({6, 4, 4}, mass);
     const int n = body.matrix.dofs();
-    for (const int degree : {1, 2, 3}) {
-      Multigrid m = cycle_of(body, {.coarsestSize = 30, .degree = degree});
-      REQUIRE(m.levels() >= 2);
+    for (const int degree : {1, 2, 3, 4}) {
+      // the last of them W-cycles over coarse levels of which none is solved by its factor
+      Multigrid m = cycle_of(body,
+                             degree < 4 ? MultigridSettings{.coarsestSize = 30, .degree = degree}
+                                        : MultigridSettings{.coarsestSize = 1, .degree = 2, .cycles = 2});
+      REQUIRE(m.levels() >= (degree < 4 ? 2 : 3));
       const Eigen::MatrixXd z = dense(m, n);
       CHECK((z - z.transpose()).norm() < 1e-5 * z.norm());  // of float
       const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> of(0.5 * (z + z.transpose()));
@@ -183,6 +186,22 @@ TEST_CASE("what is held takes nothing from coarse levels, and may change") {
   m.update(OneThread{}, body.matrix);  // held no more
   for (int i = 0; i < 10; ++i)
     CHECK(m.fine.down.start[std::size_t(i)] < m.fine.down.start[std::size_t(i) + 1]);
+}
+
+TEST_CASE("aggregates of the first update come back with what was held then") {
+  Body body({9, 4, 4}, 1e-3);
+  auto held = body, soft = body;
+  for (int dof = 0; dof < 30; ++dof) held.matrix.fix(dof);
+  for (auto& v : soft.matrix.values) v *= 1e-6;
+  for (int i = 0; i < soft.matrix.rows(); ++i)
+    soft.matrix.add(3 * i, 3 * i, Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+  Multigrid m = cycle_of(body);
+  const std::vector<int> first = m.fine.down.aggregate;
+  m.update(OneThread{}, held.matrix);
+  CHECK(m.fine.down.aggregate != first);
+  m.update(OneThread{}, soft.matrix);  // by itself it would have no aggregates
+  CHECK(m.fine.down.aggregate == first);
+  CHECK(cycle_of(soft).levels() == 1);
 }
 
 TEST_CASE("zeros on the diagonal and numbers that are not finite do no harm") {

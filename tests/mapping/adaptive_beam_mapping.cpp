@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "one_component.hpp"
+#include "frames.hpp"
 
 #include <sinew/engine/beam_interpolation.hpp>
 #include <sinew/engine/rod_spire_section.hpp>
@@ -16,6 +16,7 @@ using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using frames::frame;
 using one::says;
 using std::numbers::pi;
 
@@ -25,12 +26,6 @@ using Mapping = AdaptiveBeamMapping<Rigid3d, Vec3d>;
 using Frames = Rigid3d::VecCoord;
 using Points = Vec3d::VecCoord;
 
-Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& rotation = Quaterniond::Identity()) {
-  Rigid3d::Coord x;
-  x.center = center;
-  x.orientation = rotation;
-  return x;
-}
 WireRestShape<Rigid3d> arc(int n, double length, double diameter) {
   WireRestShape<Rigid3d> shape{
       .wireMaterials = {{.length = length, .radius = 0.01, .nbBeams = n, .spireDiameter = diameter}}};

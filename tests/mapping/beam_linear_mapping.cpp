@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "one_component.hpp"
+#include "frames.hpp"
 
 #include <sinew/mapping/beam_linear_mapping.hpp>
 
@@ -11,6 +11,7 @@ using namespace sinew;
 using Eigen::AngleAxisd;
 using Eigen::Quaterniond;
 using Eigen::Vector3d;
+using frames::frame;
 using one::says;
 using std::numbers::pi;
 
@@ -20,12 +21,6 @@ using Mapping = BeamLinearMapping<Rigid3d, Vec3d>;
 using Frames = Rigid3d::VecCoord;
 using Points = Vec3d::VecCoord;
 
-Rigid3d::Coord frame(Vector3d const& center, Quaterniond const& rotation = Quaterniond::Identity()) {
-  Rigid3d::Coord x;
-  x.center = center;
-  x.orientation = rotation;
-  return x;
-}
 Mapping ready(Mapping mapping, Frames const& parent, Points& child, std::vector<Edge> const& edges = {}) {
   check_fields(mapping, "child");
   TopologyView topology;

@@ -81,6 +81,20 @@ TEST_CASE("a mass of the whole body is shared out with it") {
   compare(DiagonalMass<Vec3d>{.totalMass = 7});
 }
 
+TEST_CASE("no step allocates, not even the first, but for what MPI and PETSc do") {
+  auto allocations = [](auto scene) {
+    mpi::DistributedSimulation sim{std::move(scene), std::make_shared<mpi::Communicator>()};
+    sim.init();
+    const long before = allocationsHere;
+    for (int i = 0; i < 5; ++i) sim.animate(0.01);
+    return allocationsHere - before;
+  };
+  const EulerImplicitSolver ode{.rayleighStiffness = 0.01};
+  CHECK(allocations(bar(ode, CGLinearSolver<>{.iterations = 1000, .tolerance = 1e-11})) == 0);
+  for (auto const& preconditioner : {"pbjacobi", "bjacobi", "multigrid"})
+    CHECK(allocations(bar(ode, PetscLinearSolver<>{.preconditioner = preconditioner})) == 0);
+}
+
 TEST_CASE("two runs have the same bits, and elements without ghosts go while these come") {
   const World world;
   auto scene = [] {

@@ -8,6 +8,9 @@
 
 #include <string>
 
+/// Of this program, without MPI and PETSc (main.cpp).
+extern long allocationsHere;
+
 /// Scenes and comparisons of tests that mpirun starts with 1, 2, 3 or 4 ranks; each of them runs all tests.
 namespace ranks_test {
 

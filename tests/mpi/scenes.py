@@ -183,8 +183,8 @@ def loaded(mesh):
 
 
 def large():
-    """A block of 8,000 hexahedra, which take some ten MB."""
-    points, cells = grid((21, 21, 21), (0, 0, 0), (1, 1, 1))
+    """A block of 15,625 hexahedra, which take some ten MB."""
+    points, cells = grid((26, 26, 26), (0, 0, 0), (1, 1, 1))
     return scene("0 -9.81 0", 0.01, f"""
   <Node name="block">
     <EulerImplicitSolver rayleighStiffness="0.01"/>

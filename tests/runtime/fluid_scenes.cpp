@@ -87,7 +87,7 @@ TEST_CASE("a solid in a fluid of a scene file has the bits of a typed one") {
   CHECK(component<MechanicalObject<Rigid3d>>(copy, "box").velocity == state.velocity);
 }
 
-TEST_CASE("a blade stirs a tank, the water takes its torque, and a box that swims goes with it") {
+TEST_CASE("a blade stirs a tank, the water takes its torque, and a box that swims goes with it", "[long]") {
   auto sim = started("stirred_tank.scn");
   auto& blade = component<ImmersedSolid<Vec3d>>(sim, "stirrer/blade");
   auto& stirrer = component<MechanicalObject<Rigid3d>>(sim, "stirrer");
@@ -122,7 +122,7 @@ TEST_CASE("a blade stirs a tank, the water takes its torque, and a box that swim
   CHECK(water.volume() == Approx(volume).epsilon(1e-6));
 }
 
-TEST_CASE("water that floods an organ bends it, and does not go through it") {
+TEST_CASE("water that floods an organ bends it, and does not go through it", "[long]") {
   auto sim = started("flooded_organ.scn");
   auto& tissue = component<MechanicalObject<Vec3d>>(sim, "tissue");
   auto& skin = component<FluidBoundary<Vec3d>>(sim, "tissue/skin");
@@ -152,7 +152,7 @@ TEST_CASE("water that floods an organ bends it, and does not go through it") {
   CHECK(nearest > 0.5 * 0.015);
 }
 
-TEST_CASE("a cut bleeds, and what comes to the tool is sucked off") {
+TEST_CASE("a cut bleeds, and what comes to the tool is sucked off", "[long]") {
   auto sim = started("bleeding_cut.scn");
   auto& blood = component<MechanicalObject<Vec3d>>(sim, "blood");
   auto& source = component<ParticleSource<Vec3d>>(sim, "blood");

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // States that are recorded and replayed, in runtime trees and scene files.
-#include "catch.hpp"
-#include "io/files.hpp"
+#include "scene/replay.hpp"
 
 #include <sinew/runtime/from_typed.hpp>
 #include <sinew/runtime/precompiled.hpp>
@@ -10,12 +9,12 @@ namespace test_replay {
 
 using namespace sinew;
 using files::TempFolder;
+using replay::dt;
+using replay::pulling;
 
 namespace {
 
 using Runtime = StandardSimulation;
-
-constexpr double dt = 0.01;
 
 template <class Sim>
 std::string bits_of(Sim& sim) {
@@ -40,22 +39,6 @@ std::vector<std::string> run(Sim& sim, int steps) {
   return all;
 }
 
-template <class... Drive>
-auto pulling(Drive... drive) {
-  return Simulation{node<"root">(
-      Gravity{{0, -9.81, 0}},
-      node<"tool">(
-          MechanicalObject<Rigid3d>{.position = {{{1, 0, 0}, Quat<double>(1, 0, 0, 0)}}},
-          drive...,
-          node<"tip">(MechanicalObject<Vec3d>{.position = {{0, 0.5, 0}}}, RigidMapping<Rigid3d, Vec3d>{})),
-      node<"string">(EulerImplicitSolver{},
-                     CGLinearSolver<>{.iterations = 50, .tolerance = 1e-12},
-                     MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {0.5, 0, 0}, {1, 0, 0}}},
-                     UniformMass<Vec3d>{.vertexMass = 0.1},
-                     StiffSpringForceField<Vec3d>{{{0, 1, 50, 0.1, 0.5}, {1, 2, 50, 0.1, 0.5}}},
-                     FixedConstraint<Vec3d>{.indices = {0}}),
-      StiffSpringForceField<Vec3d, Between<"tool/tip", "string">>{{{0, 2, 20, 0.5, 0.2}}})};
-}
 ReadState<Rigid3d> keys() {
   const Quat<double> turned(Eigen::AngleAxisd(1.5, Eigen::Vector3d(1, 0, 1).normalized()));
   return {.keyTimes = {0, 0.3, 0.7},

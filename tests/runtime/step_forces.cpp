@@ -176,7 +176,7 @@ double balance(std::string const& content, std::vector<Body> bodies, Rule rule, 
 // the tolerance: what solvers leave of the impulses of a step, some N s, by rounding and by their own
 // tolerances of 1e-13
 
-TEST_CASE("contact forces, weight and reactions change the momenta, whatever the solver") {
+TEST_CASE("contact forces, weight and reactions change the momenta, whatever the solver", "[long]") {
   for (std::string_view response : {"PenalityContactForceField", "StickContactForceField"})
     for (auto const& method : methods()) {
       CAPTURE(response, method.ode);

@@ -39,7 +39,8 @@ TEST_CASE("two blocks of a fluid meet: momentum stays to rounding, the density t
   CHECK(sim.kineticEnergy() < energy);
 }
 
-TEST_CASE("a column comes to rest, walls bear its weight to 0.5 %, and the pressure rises by the depth") {
+TEST_CASE("a column comes to rest, walls bear its weight to 0.5 %, and the pressure rises by the depth",
+          "[long]") {
   const double d = 0.05, g = 9.81, density = 1000, mass = density * d * d * d;
   const int n = 6, height = 8;
   const Points x = tank::block(d, n, height, n);
@@ -132,7 +133,7 @@ TEST_CASE("a step beyond the CFL limit is divided, and refused where it takes to
              Catch::Contains("CFL") && Catch::Contains("/root: DFSPHSolver") && Catch::Contains("0.028 s"));
 }
 
-TEST_CASE("threads find the same bits, and a reset goes back to them") {
+TEST_CASE("threads find the same bits, and a reset goes back to them", "[long]") {
   const double d = 0.1;
   auto run = [&](auto... threads) {
     Simulation sim{node<"root">(threads...,

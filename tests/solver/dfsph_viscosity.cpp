@@ -226,7 +226,7 @@ TEST_CASE("between two cylinders, of which the inner one turns, a thick fluid ha
   CHECK(errors[1] < errors[0]);
 }
 
-TEST_CASE("a thick fluid in a scene: long steps, the same bits by threads, forces that balance") {
+TEST_CASE("a thick fluid in a scene: long steps, the same bits by threads, forces that balance", "[long]") {
   const double d = 0.05, mass = 1000 * d * d * d;
   auto run = [&](int threads, double viscosity) {
     Points v;

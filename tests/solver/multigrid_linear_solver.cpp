@@ -180,8 +180,9 @@ TEST_CASE("iterations hardly grow with the points, nor with stiffness that jumps
   for (const Stiff stiff : {Stiff::halves, Stiff::layers, Stiff::core})
     CHECK(iterations({.young = 1e5, .stiff = stiff}) <= 16);
   CHECK(iterations({.young = 1e5, .stiff = Stiff::random}) <= 24);
-  // volume nearly kept: more of the smoother
-  CHECK(iterations({.poisson = 0.49}, {.smootherDegree = 6}) <= 20);
+  // volume nearly kept: more of the smoother, and coarse levels solved better
+  for (const int cells : {6, 12})
+    CHECK(iterations({.cells = cells, .poisson = 0.49}, {.smootherDegree = 6, .coarseCycles = 2}) <= 20);
   CHECK(iterations({.poisson = 0.49}) <= 40);
 }
 
@@ -336,6 +337,7 @@ TEST_CASE("settings of multigrid have ranges") {
   CHECK(said({.coarsestSize = 0}).find("coarsestSize") != std::string::npos);
   CHECK(said({.strengthThreshold = 1.5}).find("strengthThreshold") != std::string::npos);
   CHECK(said({.smootherDegree = 0}).find("smootherDegree") != std::string::npos);
+  CHECK(said({.coarseCycles = 0}).find("coarseCycles") != std::string::npos);
   CHECK(said({.refresh = -1}).find("refresh") != std::string::npos);
 }
 

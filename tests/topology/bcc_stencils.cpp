@@ -79,7 +79,7 @@ TEST_CASE("no position of moved corners and cut points breaks the angle bounds")
       for (const int i : points) {
         const int label = digits % 3 - 1;
         digits /= 3, inside += label > 0, onSurface = onSurface || label == 0;
-        one.lattice.label[std::size_t(i)] = (signed char)(label);
+        one.lattice.label[std::size_t(i)] = static_cast<signed char>(label);
       }
       if (inside == 0) continue;
       for (int sample = 0; sample < 400; ++sample) {
@@ -136,7 +136,7 @@ TEST_CASE("a surface point is a manifold point when its link shows one curve") {
   OneCell one;
   auto set = [&](auto label) {
     for (std::size_t d = 0; d < 14; ++d)
-      one.lattice.label[std::size_t(one.p + one.lattice.steps_of(one.p)[d])] = (signed char)(label(int(d)));
+      one.lattice.label[std::size_t(one.p + one.lattice.steps_of(one.p)[d])] = static_cast<signed char>(label(int(d)));
     one.lattice.label[std::size_t(one.p)] = 0;
     return is_manifold_at(one.lattice, one.p);
   };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include "catch.hpp"
+#include "frames.hpp"
 #include "registry_scene.hpp"
 
 #include <sinew/constraint/fixed_constraint.hpp>
@@ -20,14 +20,8 @@ using Beam = BeamFEMForceField<Rigid3d>;
 using Coord = Rigid3d::Coord;
 using Deriv = Rigid3d::Deriv;
 using Eigen::Vector3d;
+using frames::frame;
 
-inline Coord frame(Vector3d const& center,
-                   Eigen::Quaterniond const& rotation = Eigen::Quaterniond::Identity()) {
-  Coord x;
-  x.center = center;
-  x.orientation = rotation;
-  return x;
-}
 /// n + 1 frames along x, of a beam of n elements, and its edges.
 inline Rigid3d::VecCoord straight(int n, double length) {
   Rigid3d::VecCoord x;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "catch.hpp"
+#include "curved_wire.hpp"
 
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
@@ -9,7 +10,6 @@
 #include <sinew/collision/point_collision_model.hpp>
 #include <sinew/collision/triangle_collision_model.hpp>
 #include <sinew/control/interventional_radiology_controller.hpp>
-#include <sinew/engine/wire_rest_shape.hpp>
 #include <sinew/force/adaptive_beam_force_field.hpp>
 #include <sinew/mapping/adaptive_beam_mapping.hpp>
 #include <sinew/mass/adaptive_beam_mass.hpp>
@@ -33,21 +33,6 @@ using Frames = Rigid3d::VecCoord;
 // where the tip bends to, then straight along z.
 namespace {
 
-// a wire with a curved tip, of 1 mm
-WireRestShape<Rigid3d> wire() {
-  const RodSection section{.length = 0.2,
-                           .youngModulus = 1e9,
-                           .poissonRatio = 0.3,
-                           .massDensity = 6000,
-                           .radius = 5e-4,
-                           .nbBeams = 10,
-                           .nbEdgesCollis = 40};
-  RodSection tip = section;
-  tip.length = 0.04, tip.nbBeams = 5, tip.nbEdgesCollis = 10, tip.spireDiameter = 0.04;
-  WireRestShape<Rigid3d> shape{.wireMaterials = {section, tip}};
-  shape.update("wire");
-  return shape;
-}
 double length_of(Frames const& x) {
   double length = 0;
   for (std::size_t i = 1; i < x.size(); ++i) length += (x[i].center - x[i - 1].center).norm();
@@ -94,7 +79,7 @@ struct Tube {
 // The penalty of a point has the stiffness 1 * 1 / 0.5 mm = 2000 N/m; straightening the tip takes
 // EI / R = 2.5e-3 N m, which is 0.1 N at its ends: 0.05 mm.
 TEST_CASE("a wire is pushed through a bent tube and its points stay inside") {
-  const auto shape = wire();
+  const auto shape = curved_wire();
   const Tube tube;
   Simulation sim{node<"root">(
       DefaultPipeline{},

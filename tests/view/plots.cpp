@@ -99,7 +99,7 @@ auto hanging() {
       node<"block">(TetrahedronTopology{mesh.tetrahedra},
                     MechanicalObject<Vec3d>{mesh.positions},
                     UniformMass<Vec3d>{.totalMass = 1},
-                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = {0.3}}));
+                    TetrahedronFEMForceField<Vec3d>{.youngModulus = {1000}, .poissonRatio = 0.3}));
 }
 view::StageState profiled_state(view::Stage& stage) {
   stage.profile(true);

@@ -282,15 +282,14 @@ struct ContactManager {
     keys.swap(foundKeys);
     ofVertices.swap(foundVertices);
     All::setStep(responses, dt);
-    auto touch = [&](ContactSide const& side) {
-      for (int k = 0; k < side.corners(); ++k)
-        surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
-    };
     for (Contact const& c : contacts) touch(c.a), touch(c.b);
-    for (Attachment& a : attachments) {
-      touch(a.contact.b);
-      find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
-    }
+    touchAttached();
+  }
+
+  /// The contacts of the step are to come; what is held from outside acts till then.
+  void await() {
+    couplingChanged = std::exchange(couplesAgain, false);
+    touchAttached();
   }
 
   /// The contacts that were found have the same keys as those of the last step, none of them by force, and
@@ -382,6 +381,16 @@ struct ContactManager {
   }
 
  private:
+  void touch(ContactSide const& side) {
+    for (int k = 0; k < side.corners(); ++k)
+      surfaces[std::size_t(side.surface)]->touch(side.vertices[std::size_t(k)]);
+  }
+  void touchAttached() {
+    for (Attachment& a : attachments) {
+      touch(a.contact.b);
+      find_solver(a.contact, nullptr, surfaces[std::size_t(a.contact.b.surface)]);
+    }
+  }
   void checkRoom() {
     if (found.size() == found.capacity()) ++grown;
     if (found.size() < std::size_t(maximumContacts)) return;

@@ -7,9 +7,16 @@
 
 namespace sinew {
 
-/// Contacts between primitives that are near each other, or will be during the step when their corners go on
-/// as fast as they are: at the time of their first impact, by conservative advancement (time_of_impact.hpp),
-/// so that nothing is passed through, however fast. An implicit solver meets them at the end of the step.
+/// Contacts between primitives that are near each other, or will be during the step: at the time of their
+/// first impact, by conservative advancement (time_of_impact.hpp), so that nothing is passed through, however
+/// fast.
+///
+/// `continuousCollisionType` says where corners go in the step: by `inertia` on as fast as they are, and an
+/// implicit solver meets what they meet at the end of the step; by `freeMotion` straight to where the forces
+/// of the step take them without multipliers, x + t (x_free - x) / dt, so that what starts to fall or is
+/// thrown in this step is seen, and what forces hold back is not. Contacts are found behind the free motion
+/// then, and so they are answered by multipliers alone, under a FreeMotionAnimationLoop. `none`: what is near
+/// at the start.
 struct ContinuousIntersection {
   using Role = role::Intersection;
   static constexpr std::string_view className = "ContinuousIntersection";
@@ -18,8 +25,18 @@ struct ContinuousIntersection {
 
   double alarmDistance = 1;
   double contactDistance = 0.5;
+  StepMotion continuousCollisionType = StepMotion::inertia;
 
-  static constexpr auto fields() { return proximity_fields<ContinuousIntersection>(); }
+  static constexpr auto fields() {
+    return proximity_fields<ContinuousIntersection>(field(
+        "continuousCollisionType",
+        &ContinuousIntersection::continuousCollisionType,
+        "",
+        "where points go in a step: inertia, on as fast as they are; freeMotion, where forces take them "
+        "without multipliers; none, nowhere"));
+  }
+
+  StepMotion motion() const { return continuousCollisionType; }
 
   double reach() const { return std::max(alarmDistance, contactDistance); }
   double limit() const { return contactDistance; }

@@ -17,7 +17,7 @@ namespace sinew {
 /// Composes collision detection from the stages that stand in its node, for the models below it: the boxes of
 /// all models and their primitives, the broad phase (pairs of models), the narrow phase (pairs of
 /// primitives), the intersection method (contacts), the contact manager (their response). Runs at the start
-/// of each step.
+/// of each step, or behind its free motion where the intersection method looks at that.
 struct DefaultPipeline {
   using Role = role::CollisionPipeline;
   static constexpr std::string_view className = "DefaultPipeline";
@@ -28,6 +28,7 @@ struct DefaultPipeline {
   std::vector<CollisionSurface*> surfaces{};  // of the step, in the order of the scene
   std::vector<std::pair<int, int>> near{};    // pairs of them
   bool begun = false;                         // a device looks for the contacts of the step
+  bool afterFreeMotion = false;               // they are found behind the free motion of the step
   long boxTests = 0;  // pairs of primitives that the narrow phase found in the last step
   // primitives of two models whose boxes meet: those that are found one after the other are met together
   std::array<std::pair<int, int>, 256> candidates{};

@@ -37,6 +37,7 @@ struct SubCollisionPipeline {
   std::vector<CollisionSurface*> surfaces{};  // of the step, all of the scene
   std::vector<std::pair<int, int>> near{};    // pairs of those that are meant
   std::vector<char> listed{};                 // whether each of the surfaces is
+  bool afterFreeMotion = false;               // contacts are found behind the free motion of the step
   DefaultPipeline search{};
 
   bool takes(CollisionSurface const& s) const { return listed[std::size_t(s.number)] != 0; }

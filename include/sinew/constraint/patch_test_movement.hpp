@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/constraint/constrained_points.hpp>
+#include <sinew/constraint/steady_movement.hpp>
 
-#include <algorithm>
 #include <vector>
 
 namespace sinew {
@@ -37,10 +36,7 @@ struct PatchTestMovementProjectiveConstraint {
 
   static constexpr auto fields() {
     using F = PatchTestMovementProjectiveConstraint;
-    return field_list(
-        field("indices", &F::indices, "", "points that are moved", range::nonNegative).numbersOf(Of::points),
-        field("beginConstraintTime", &F::beginConstraintTime, "s", "time at which the movement starts"),
-        field("endConstraintTime", &F::endConstraintTime, "s", "time at which the movement ends"),
+    return steady_movement_fields<F>(
         field("constrainedPoints", &F::constrainedPoints, "m", "points whose box has the corners"),
         field("cornerMovements",
               &F::cornerMovements,
@@ -49,25 +45,15 @@ struct PatchTestMovementProjectiveConstraint {
         field("cornerPoints", &F::cornerPoints, "m", "points whose box has the corners, before all others"));
   }
 
-  VecCoord start{};
-  VecDeriv movement{};  // from start to the end
+  SteadyMovement<D> steady{};
 
   void init(InitContext<D> const& context) {
     using Movement = PatchTestMovementProjectiveConstraint;
-    check_points<Movement>(context, indices);
     const std::string where = place_of<Movement>(context);
-    if (!(endConstraintTime > beginConstraintTime))
-      throw Error(where,
-                  text("beginConstraintTime is ",
-                       beginConstraintTime,
-                       " s and endConstraintTime ",
-                       endConstraintTime,
-                       " s; give an end after the begin"));
-    start.clear(), movement.clear();
-    for (const int i : indices) start.push_back(context.rest[std::size_t(i)]);
+    steady.init(context, *this);
     auto const& boxed = !cornerPoints.empty()        ? cornerPoints
                         : !constrainedPoints.empty() ? constrainedPoints
-                                                     : start;
+                                                     : steady.start;
     if (boxed.empty()) return;
     using Place = Vec<double, 3>;
     Place low = D::center(boxed[0]).template cast<double>(), high = low;
@@ -86,7 +72,7 @@ struct PatchTestMovementProjectiveConstraint {
                        " entries for a box of ",
                        corners,
                        " corners; give one for each"));
-    for (auto const& x : start) {
+    for (auto const& x : steady.start) {
       const Place at = D::center(x).template cast<double>();
       double r[3];
       for (int c = 0; c < 3; ++c) r[c] = extent[c] > 0 ? (at[c] - low[c]) / extent[c] : 0;
@@ -96,7 +82,7 @@ struct PatchTestMovementProjectiveConstraint {
         u += cornerMovements[k] *
              Real((right ? r[0] : 1 - r[0]) * (far ? r[1] : 1 - r[1]) * (above ? r[2] : 1 - r[2]));
       }
-      movement.push_back(u);
+      steady.movement.push_back(u);
     }
   }
 
@@ -108,23 +94,8 @@ struct PatchTestMovementProjectiveConstraint {
     for (const int i : indices) sink.fix(i);
   }
 
-  void projectPosition(double time, VecCoord& x) const {
-    if (time < beginConstraintTime) return;
-    const double part = std::min((time - beginConstraintTime) / duration(), 1.0);
-    for (std::size_t k = 0; k < indices.size(); ++k) {
-      typename D::Coord& place = x[std::size_t(indices[k])];
-      place = start[k];
-      D::increment(place, movement[k] * Real(part));
-    }
-  }
-  void projectVelocity(double time, VecDeriv& v) const {
-    const bool moves = time >= beginConstraintTime && time < endConstraintTime;
-    for (std::size_t k = 0; k < indices.size(); ++k)
-      v[std::size_t(indices[k])] = moves ? Deriv(movement[k] / Real(duration())) : Deriv(Deriv::Zero());
-  }
-
- private:
-  double duration() const { return endConstraintTime - beginConstraintTime; }
+  void projectPosition(double time, VecCoord& x) const { steady.projectPosition(*this, time, x); }
+  void projectVelocity(double time, VecDeriv& v) const { steady.projectVelocity(*this, time, v); }
 };
 
 }  // namespace sinew

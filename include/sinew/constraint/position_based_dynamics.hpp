@@ -16,7 +16,7 @@ namespace sinew {
 /// clusters, which may overlap, all points go towards the rigid motion of their rest shape that is nearest to
 /// them, or their affine map (Mueller, Heidelberger, Teschner, Gross 2005). Points weigh as much as their
 /// masses, so that matching shapes keeps momentum and angular momentum, also where clusters overlap (Rivers,
-/// James 2007). In SOFA all points of a cluster weigh the same, and the velocity of the first step is lost.
+/// James 2007). In SOFA a point weighs the same in all of its clusters.
 /// Points that another constraint holds are moved, too: hold a cluster by fixed points.
 ///
 /// In scene files position="@matching.targetPosition" takes the clusters of a ShapeMatching, and goals

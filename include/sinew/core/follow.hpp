@@ -5,6 +5,7 @@
 #include <sinew/core/fields.hpp>
 #include <sinew/core/renumbering.hpp>
 #include <sinew/core/role.hpp>
+#include <sinew/core/value_numbers.hpp>
 
 #include <functional>
 
@@ -32,10 +33,6 @@ struct Followed {
 
 namespace detail {
 
-template <class T>
-inline constexpr bool is_list = false;
-template <class T>
-inline constexpr bool is_list<std::vector<T>> = true;
 template <class T>
 inline constexpr bool is_struct_list = false;
 template <HasFields T>

@@ -20,9 +20,9 @@ namespace sinew {
 namespace detail {
 
 template <class T>
-inline constexpr bool is_number_list = false;
+inline constexpr bool is_list = false;
 template <class T>
-inline constexpr bool is_number_list<std::vector<T>> = true;
+inline constexpr bool is_list<std::vector<T>> = true;
 template <class T>
 inline constexpr bool is_optional = false;
 template <class T>
@@ -96,16 +96,16 @@ double const* read_numbers(double const* from, T& value) {
 
 /// A value that is numbers: one or a fixed count of them, a list of such, or such a one that may be missing.
 template <class T>
-concept OfNumbers = detail::count_of_numbers<T>() > 0 ||
-                    ((detail::is_number_list<T> || detail::is_optional<T>)&&detail::count_of_numbers<
-                         typename std::conditional_t<detail::is_number_list<T> || detail::is_optional<T>, T,
-                                                     std::array<int, 1>>::value_type>() > 0);
+concept OfNumbers =
+    detail::count_of_numbers<T>() > 0 ||
+    ((detail::is_list<T> || detail::is_optional<T>)&&detail::count_of_numbers<typename std::conditional_t<
+         detail::is_list<T> || detail::is_optional<T>, T, std::array<int, 1>>::value_type>() > 0);
 
 namespace detail {
 template <class T>
 inline constexpr bool is_list_of_lists = false;
 template <class T>
-inline constexpr bool is_list_of_lists<std::vector<T>> = is_number_list<T> && OfNumbers<T>;
+inline constexpr bool is_list_of_lists<std::vector<T>> = is_list<T> && OfNumbers<T>;
 }  // namespace detail
 
 /// The numbers of a value.
@@ -113,7 +113,7 @@ template <OfNumbers T>
 void to_numbers(T const& value, std::vector<double>& numbers) {
   if constexpr (std::is_same_v<T, std::vector<bool>>) {
     numbers.assign(value.begin(), value.end());
-  } else if constexpr (detail::is_number_list<T>) {
+  } else if constexpr (detail::is_list<T>) {
     numbers.resize(value.size() * detail::count_of_numbers<typename T::value_type>());
     double* to = numbers.data();
     for (auto const& one : value) to = detail::write_numbers(one, to);
@@ -132,7 +132,7 @@ bool from_numbers(std::span<double const> numbers, T& value) {
   if constexpr (std::is_same_v<T, std::vector<bool>>) {
     value.resize(numbers.size());
     for (std::size_t i = 0; i < numbers.size(); ++i) value[i] = numbers[i] != 0;
-  } else if constexpr (detail::is_number_list<T>) {
+  } else if constexpr (detail::is_list<T>) {
     constexpr std::size_t each = detail::count_of_numbers<typename T::value_type>();
     if (numbers.size() % each != 0) return false;
     value.resize(numbers.size() / each);

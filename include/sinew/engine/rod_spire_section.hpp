@@ -23,19 +23,7 @@ struct RodSpireSection {
 
   static constexpr auto fields() {
     using S = RodSpireSection;
-    return field_list(
-        field("length", &S::length, "m", "along the wire", range::positive),
-        field("youngModulus", &S::youngModulus, "Pa", "stiffness of the material", range::positive),
-        field("poissonRatio",
-              &S::poissonRatio,
-              "",
-              "lateral contraction per strain",
-              Range{.low = -1, .high = 0.5, .openLow = true}),
-        field("massDensity", &S::massDensity, "kg/m^3", "mass of a volume", range::positive),
-        field("radius", &S::radius, "m", "of the section", range::positive),
-        field("innerRadius", &S::innerRadius, "m", "of the hole in it", range::nonNegative),
-        field("nbBeams", &S::nbBeams, "", "beams of equal length", range::atLeast(1)),
-        field("nbEdgesCollis", &S::nbEdgesCollis, "", "edges for collisions", range::atLeast(1)),
+    return rod_section_fields<S>(
         field("spireDiameter", &S::spireDiameter, "m", "of the helix", range::positive),
         field("spireHeight", &S::spireHeight, "m", "its rise in a turn", range::nonNegative));
   }
@@ -50,16 +38,7 @@ struct RodSpireSection {
   /// Throws Error for a hole as wide as the section, or beams of more than half a turn.
   void update(std::string_view where) {
     check_fields(*this, where);
-    const std::vector<RodSection> made{{.length = length,
-                                        .youngModulus = youngModulus,
-                                        .poissonRatio = poissonRatio,
-                                        .massDensity = massDensity,
-                                        .radius = radius,
-                                        .innerRadius = innerRadius,
-                                        .nbBeams = nbBeams,
-                                        .nbEdgesCollis = nbEdgesCollis,
-                                        .spireDiameter = spireDiameter,
-                                        .spireHeight = spireHeight}};
+    const std::vector<RodSection> made{rod_section(*this)};
     rod_beams(text(where, ": ", className), made);
     section = made;
   }

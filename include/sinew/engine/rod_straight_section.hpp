@@ -18,22 +18,7 @@ struct RodStraightSection {
   double radius = 1, innerRadius = 0;
   int nbBeams = 5, nbEdgesCollis = 20;
 
-  static constexpr auto fields() {
-    using S = RodStraightSection;
-    return field_list(
-        field("length", &S::length, "m", "along the wire", range::positive),
-        field("youngModulus", &S::youngModulus, "Pa", "stiffness of the material", range::positive),
-        field("poissonRatio",
-              &S::poissonRatio,
-              "",
-              "lateral contraction per strain",
-              Range{.low = -1, .high = 0.5, .openLow = true}),
-        field("massDensity", &S::massDensity, "kg/m^3", "mass of a volume", range::positive),
-        field("radius", &S::radius, "m", "of the section", range::positive),
-        field("innerRadius", &S::innerRadius, "m", "of the hole in it", range::nonNegative),
-        field("nbBeams", &S::nbBeams, "", "beams of equal length", range::atLeast(1)),
-        field("nbEdgesCollis", &S::nbEdgesCollis, "", "edges for collisions", range::atLeast(1)));
-  }
+  static constexpr auto fields() { return rod_section_fields<RodStraightSection>(); }
 
   // after update
   std::vector<RodSection> section{};
@@ -45,14 +30,7 @@ struct RodStraightSection {
   /// Throws Error for a hole as wide as the section.
   void update(std::string_view where) {
     check_fields(*this, where);
-    const std::vector<RodSection> made{{.length = length,
-                                        .youngModulus = youngModulus,
-                                        .poissonRatio = poissonRatio,
-                                        .massDensity = massDensity,
-                                        .radius = radius,
-                                        .innerRadius = innerRadius,
-                                        .nbBeams = nbBeams,
-                                        .nbEdgesCollis = nbEdgesCollis}};
+    const std::vector<RodSection> made{rod_section(*this)};
     rod_beams(text(where, ": ", className), made);
     section = made;
   }

@@ -45,46 +45,11 @@ struct Fluid2D {
 
   static constexpr auto fields() {
     using F = Fluid2D;
-    return field_list(
+    return fluid::grid_component_fields<F>(
+        "solid boxes, by two corners each: xmin ymin xmax ymax; cells whose centres are inside are "
+        "solid",
         field("nx", &F::nx, "", "cells along x, with the two of the walls", range::atLeast(3)),
-        field("ny", &F::ny, "", "cells along y, with the two of the walls", range::atLeast(3)),
-        field("cellwidth", &F::cellwidth, "m", "width of each cell", range::positive),
-        field("center", &F::center, "m", "position of the centre of the grid"),
-        field("height",
-              &F::height,
-              "",
-              "how far the surface is at first from the centre of the first cell, which belongs to the "
-              "walls, along dir [cells]; 0: the fluid fills the box and has no surface"),
-        field("dir", &F::dir, "", "normal of the surface at first, out of the fluid"),
-        field("tstart", &F::tstart, "s", "from when on the source pours fluid"),
-        field("tstop", &F::tstop, "s", "until when"),
-        field("density", &F::density, "kg/m^3", "of the fluid", range::positive),
-        field("viscosity",
-              &F::viscosity,
-              "Pa s",
-              "dynamic viscosity; that of water is 0.001",
-              range::nonNegative),
-        field("walls", &F::walls, "", "whether fluid slips along walls and obstacles, or sticks to them"),
-        field("advection", &F::advection, "", "how velocity and surface are carried along"),
-        field("obstacle",
-              &F::obstacle,
-              "m",
-              "solid boxes, by two corners each: xmin ymin xmax ymax; cells whose centres are inside are "
-              "solid"),
-        field("source", &F::source, "m", "centre of the source"),
-        field("sourceRadius",
-              &F::sourceRadius,
-              "m",
-              "radius of the source; 0: there is none",
-              range::nonNegative),
-        field("sourceVelocity", &F::sourceVelocity, "m/s", "of what it pours"),
-        field("keepVolume",
-              &F::keepVolume,
-              "",
-              "moves the whole surface by a small part of a cell after each step, so that the fluid keeps "
-              "its volume"),
-        field("tolerance", &F::tolerance, "", "of the pressure: residual over right side", range::open(0, 1)),
-        field("iterations", &F::iterations, "", "most iterations for the pressure", range::atLeast(1)));
+        field("ny", &F::ny, "", "cells along y, with the two of the walls", range::atLeast(3)));
   }
 
   /// Velocity, surface and pressure (GridFluid::save).

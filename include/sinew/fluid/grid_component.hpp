@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/context.hpp>
+#include <sinew/core/fields.hpp>
 #include <sinew/fluid/grid_fluid.hpp>
 
 #include <cmath>
@@ -10,6 +11,46 @@ namespace sinew::fluid {
 
 // What the components Fluid2D and Fluid3D have in common, over their fields. The layer of cells around is
 // counted, as in SOFA: its walls are cells of the grid.
+
+/// The fields behind the numbers of cells along each axis.
+template <class F, class... Cells>
+constexpr auto grid_component_fields(std::string_view obstacleWords, Cells... cells) {
+  return field_list(
+      cells...,
+      field("cellwidth", &F::cellwidth, "m", "width of each cell", range::positive),
+      field("center", &F::center, "m", "position of the centre of the grid"),
+      field("height",
+            &F::height,
+            "",
+            "how far the surface is at first from the centre of the first cell, which belongs to the "
+            "walls, along dir [cells]; 0: the fluid fills the box and has no surface"),
+      field("dir", &F::dir, "", "normal of the surface at first, out of the fluid"),
+      field("tstart", &F::tstart, "s", "from when on the source pours fluid"),
+      field("tstop", &F::tstop, "s", "until when"),
+      field("density", &F::density, "kg/m^3", "of the fluid", range::positive),
+      field("viscosity",
+            &F::viscosity,
+            "Pa s",
+            "dynamic viscosity; that of water is 0.001",
+            range::nonNegative),
+      field("walls", &F::walls, "", "whether fluid slips along walls and obstacles, or sticks to them"),
+      field("advection", &F::advection, "", "how velocity and surface are carried along"),
+      field("obstacle", &F::obstacle, "m", obstacleWords),
+      field("source", &F::source, "m", "centre of the source"),
+      field("sourceRadius",
+            &F::sourceRadius,
+            "m",
+            "radius of the source; 0: there is none",
+            range::nonNegative),
+      field("sourceVelocity", &F::sourceVelocity, "m/s", "of what it pours"),
+      field("keepVolume",
+            &F::keepVolume,
+            "",
+            "moves the whole surface by a small part of a cell after each step, so that the fluid keeps "
+            "its volume"),
+      field("tolerance", &F::tolerance, "", "of the pressure: residual over right side", range::open(0, 1)),
+      field("iterations", &F::iterations, "", "most iterations for the pressure", range::atLeast(1)));
+}
 
 template <int N, class C>
 Each<int, N> cell_counts(C const& c) {

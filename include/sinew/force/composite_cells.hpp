@@ -164,6 +164,7 @@ class CompositeCells {
 }  // namespace sinew
 
 #if SINEW_DEFINES
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/force/elasticity.hpp>
 #include <sinew/force/hexahedron_fem.hpp>
 #include <sinew/topology/hexahedra.hpp>
@@ -178,12 +179,6 @@ class CompositeCells {
 namespace sinew {
 
 namespace detail {
-
-SINEW_ONCE Eigen::Matrix3d cross_matrix(Eigen::Vector3d const& a) {
-  Eigen::Matrix3d m;
-  m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-  return m;
-}
 
 /// Weights of the eight corners at a place of a cell, whose coordinates are 0 to 1.
 SINEW_ONCE Eigen::Matrix<double, 8, 1> trilinear_weights(Eigen::Vector3d const& place) {
@@ -223,7 +218,7 @@ SINEW_ONCE std::array<Eigen::Matrix3d, 8> HexahedronFrame::spin(Eigen::Vector3d 
     const Matrix3d c = method == HexahedronMethod::polar ? Matrix3d(Matrix3d::Identity()) : center;
     const Matrix3d m = a * c * r.transpose(), symmetric = (m + m.transpose()) / 2;
     const Matrix3d inverse = (m.trace() * Matrix3d::Identity() - symmetric).inverse();
-    for (int k = 0; k < 3; ++k) byColumn[k] = inverse * detail::cross_matrix(r * c.row(k).transpose());
+    for (int k = 0; k < 3; ++k) byColumn[k] = inverse * cross_matrix(Vector3d(r * c.row(k).transpose()));
   }
   std::array<Matrix3d, 8> by;
   for (int m = 0; m < 8; ++m)
@@ -366,7 +361,7 @@ SINEW_ONCE CompositeCells::Cell CompositeCells::cell(std::size_t hexahedron, Eig
   Matrix24 project = Matrix24::Identity();
   for (int k = 0; k < 8; ++k)
     for (int m = 0; m < 8; ++m)
-      project.block<3, 3>(3 * k, 3 * m) += detail::cross_matrix(y[k]) * spin[std::size_t(m)];
+      project.block<3, 3>(3 * k, 3 * m) += cross_matrix(y[k]) * spin[std::size_t(m)];
   cell.stiffness = (project.transpose() * cell.stiffness * project).eval();
   return cell;
 }

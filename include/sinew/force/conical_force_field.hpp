@@ -2,14 +2,13 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/element_driver.hpp>
+#include <sinew/force/point_penalty.hpp>
 
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace sinew {
 
@@ -162,9 +161,7 @@ struct ConicalForceField {
     if (!(coneHeight.norm() > 0))
       throw Error(text(context.where, ": ", component_name<ConicalForceField>()),
                   "coneHeight is zero; give the axis of the cone, as long as it reaches from its apex");
-    std::vector<typename Driver::Indices> points(context.rest.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
-    driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
+    init_each_point(driver, context.rest.size(), {Real(stiffness), Real(damping)});
   }
   void followPoints(Renumbering const&, std::size_t points)
   requires(counts_points<Driver>)

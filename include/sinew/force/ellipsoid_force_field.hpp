@@ -2,10 +2,8 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/element_driver.hpp>
 #include <sinew/force/ellipsoid_penalty.hpp>
-
-#include <vector>
+#include <sinew/force/point_penalty.hpp>
 
 namespace sinew {
 
@@ -44,11 +42,7 @@ struct EllipsoidForceField {
   using Driver = ElementDriver<EllipsoidPenalty, D>;
   Driver driver{};
 
-  void init(InitContext<D> const& context) {
-    std::vector<typename Driver::Indices> points(context.rest.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
-    driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(1)}));
-  }
+  void init(InitContext<D> const& context) { init_each_point(driver, context.rest.size(), {Real(1)}); }
   void followPoints(Renumbering const&, std::size_t points)
   requires(counts_points<Driver>)
   {

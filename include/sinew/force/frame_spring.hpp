@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/core/element_driver.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/force/spring_ends.hpp>
@@ -90,7 +91,7 @@ struct FrameSpringLaw {
     const Real square = t.squaredNorm(), half = std::sqrt(square) / 2;
     const Real s = half < Real(1e-3) ? Real(1) / 12 + square / 720 : (1 - half / std::tan(half)) / square;
     tangent.symmetric = (1 - s * square) * Mat3::Identity() + s * t * t.transpose();
-    tangent.skew = cross(Vec3(t / -2));
+    tangent.skew = cross_matrix(Vec3(t / -2));
   }
 
   void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[2], Deriv (&df)[2], Real k,
@@ -132,14 +133,9 @@ struct FrameSpringLaw {
     from.center = x[1].center;
     return D::difference(from, x[1]).template tail<3>();
   }
-  static Mat3 cross(Vec3 const& a) {
-    Mat3 m;
-    m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-    return m;
-  }
   static Mat<Real, 3, 6> jacobian(Vec3 const& arm) {
     Mat<Real, 3, 6> j;
-    j << Mat3::Identity(), -cross(arm);
+    j << Mat3::Identity(), -cross_matrix(arm);
     return j;
   }
   // what the force at an arm that turns adds: 1/2 ([f]x [r]x + [r]x [f]x)
@@ -184,21 +180,13 @@ struct FrameSpringForceField {
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<FrameSpringForceField>());
-    std::vector<typename Driver::Indices> bodies;
-    std::vector<typename Driver::Rest> rest;
-    for (std::size_t s = 0; s < springs.size(); ++s) {
-      FrameSpring const& spring = springs[s];
-      check_spring_end(where, s, a, spring.first);
-      check_spring_end(where, s, b, spring.second);
-      if (!between && spring.first == spring.second)
-        throw Error(where, text("springs[", s, "] joins body ", spring.first, " to itself; give two bodies"));
-      bodies.push_back({spring.first, spring.second});
-      rest.push_back({Real(spring.stiffnessTranslation),
-                      Real(spring.stiffnessRotation),
-                      Real(spring.damping),
-                      {spring.firstPoint.template cast<Real>(), spring.secondPoint.template cast<Real>()}});
-    }
-    driver.init(bodies, rest);
+    auto restOf = [](std::size_t, FrameSpring const& spring) -> typename Driver::Rest {
+      return {Real(spring.stiffnessTranslation),
+              Real(spring.stiffnessRotation),
+              Real(spring.damping),
+              {spring.firstPoint.template cast<Real>(), spring.secondPoint.template cast<Real>()}};
+    };
+    init_springs(*this, where, springs, a, b, {"body", "bodies"}, restOf);
   }
 };
 

@@ -282,8 +282,7 @@ struct GearSpringForceField {
       GearSpring const& spring = springs[s];
       for (const int end : {spring.firstParent, spring.first}) check_spring_end(where, s, a, end);
       for (const int end : {spring.secondParent, spring.second}) check_spring_end(where, s, b, end);
-      if (!between && spring.first == spring.second)
-        throw Error(where, text("springs[", s, "] joins gear ", spring.first, " to itself; give two bodies"));
+      if (!between) check_two_ends(where, s, spring.first, spring.second, {"gear", "bodies"});
       if (!(std::abs(spring.ratio) > 0) || !std::isfinite(spring.ratio))
         throw Error(where, text("springs[", s, "] has a ratio of ", spring.ratio, "; give one other than 0"));
       bodies.push_back({spring.firstParent, spring.first, spring.secondParent, spring.second});

@@ -65,18 +65,11 @@ struct CompositeHexahedron {
 
   /// -k R K_ij R'
   SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
-    Mat3 const& q = tangent.rotation;
-    Mat3 rotated, block;
-    for (int r = 0; r < 3; ++r)
-      for (int c = 0; c < 3; ++c) {
-        rotated(r, c) = Real(0);
-        for (int m = 0; m < 3; ++m) rotated(r, c) += rest.stiffness[place(3 * i + r, 3 * j + m)] * q(c, m);
-        rotated(r, c) *= -k;
-      }
+    Mat3 s;
     for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r)
-        block(r, c) = q(r, 0) * rotated(0, c) + q(r, 1) * rotated(1, c) + q(r, 2) * rotated(2, c);
-    return block;
+      for (int r = 0; r < 3; ++r) s(r, c) = rest.stiffness[place(3 * i + r, 3 * j + c)];
+    Mat3 const& q = tangent.rotation;
+    return q * (-k * (s * q.transpose()));
   }
 
  private:

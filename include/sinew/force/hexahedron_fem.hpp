@@ -48,7 +48,7 @@ struct HexahedronFEM {
     Mat3 inverse[8];  // J^-1 in each Gauss point, in the axes of the rest frame of the method [1/m]
     Real weight[8];   // det J [m^3]
     Mat3 center;      // J^-1 in the centre, for `nearest`
-    Real mu, lambda;  // [Pa]
+    IsotropicMaterial<Real> material;
   };
   struct Tangent {
     Mat3 rotation;
@@ -59,21 +59,19 @@ struct HexahedronFEM {
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[8]) const {
     Vec3 y[8], column[3][4];
-    rotateBack(rotation(rest, x), x, y);
+    rotate_back(rotation(rest, x), x, y);
     Real sum(0);
     if (parallelepipeds) {
       Vec3 h[8];
       expand(y, h);
       for (const int term : {0, 1, 2, 4})
-        sum += Real(term == 0 ? 1.0 : 1.0 / 3) * density(rest, strainTerm(rest, h, term, Real(1)));
+        sum += Real(term == 0 ? 1.0 : 1.0 / 3) * rest.material.energy(strainTerm(rest, h, term, Real(1)));
       for (int i = 0; i < 3; ++i) sum += Real(1.0 / 18) * h[7][i] * twist(rest, h[7])[i];
       return Real(8) * rest.weight[0] * sum;
     }
     columns(y, column);
-    for (int g = 0; g < 8; ++g) {
-      const Mat3 e = strain(rest, column, g, Real(1));
-      sum += rest.weight[g] * density(rest, e);
-    }
+    for (int g = 0; g < 8; ++g)
+      sum += rest.weight[g] * rest.material.energy(strain(rest, column, g, Real(1)));
     return sum;
   }
 
@@ -90,7 +88,7 @@ struct HexahedronFEM {
 
   /// -k R sum_g w (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I) R',  h_i = grad N_i
   SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
-    Mat3 m, rotated, block;  // m = sum_g w h_i h_j'
+    Mat3 m;  // sum_g w h_i h_j'
     if (parallelepipeds) {
       m = slopes(rest, i, j);
     } else {
@@ -101,20 +99,7 @@ struct HexahedronFEM {
           for (int r = 0; r < 3; ++r) m(r, c) += hi[r] * hj[c];
       }
     }
-    const Real trace = rest.mu * (m(0, 0) + m(1, 1) + m(2, 2));
-    Mat3 s;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) {
-        s(r, c) = -k * (rest.lambda * m(r, c) + rest.mu * m(c, r));
-        if (r == c) s(r, c) -= k * trace;
-      }
-    Mat3 const& q = tangent.rotation;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) rotated(r, c) = s(r, 0) * q(c, 0) + s(r, 1) * q(c, 1) + s(r, 2) * q(c, 2);
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r)
-        block(r, c) = q(r, 0) * rotated(0, c) + q(r, 1) * rotated(1, c) + q(r, 2) * rotated(2, c);
-    return block;
+    return rotated(tangent.rotation, rest.material.stiffness(m, -k));
   }
 
   /// Whether opposite edges of the element are equal, to the rounding of its corners.
@@ -134,7 +119,7 @@ struct HexahedronFEM {
   static Rest restOf(Coord const (&x)[8], Real mu, Real lambda, HexahedronMethod method) {
     const Mat3 a = hexahedron_jacobian<Real>(x), frame = hexahedron_rest_frame<Real>(method, a);
     Vec3 y[8], column[3][4];
-    rotateBack(frame, x, y);
+    rotate_back(frame, x, y);
     columns(y, column);
     Rest rest;
     for (int g = 0; g < 8; ++g) {
@@ -144,8 +129,7 @@ struct HexahedronFEM {
       rest.weight[g] = j.determinant();
     }
     rest.center = a.inverse();
-    rest.mu = mu;
-    rest.lambda = lambda;
+    rest.material = {mu, lambda};
     return rest;
   }
 
@@ -172,14 +156,6 @@ struct HexahedronFEM {
       mix(column[k]);
     }
   }
-  // y = R'(x - x_0)
-  SINEW_INLINE static void rotateBack(Mat3 const& r, Coord const (&x)[8], Vec3 (&y)[8]) {
-    for (int i = 0; i < 8; ++i) {
-      const Vec3 d = x[i] - x[0];
-      for (int c = 0; c < 3; ++c) y[i][c] = r(0, c) * d[0] + r(1, c) * d[1] + r(2, c) * d[2];
-    }
-  }
-
   SINEW_INLINE static Mat3 strain(Rest const& rest, Vec3 const (&column)[3][4], int g, Real one) {
     Mat3 const& inverse = rest.inverse[g];
     Vec3 const &c0 = column[0][columnOf(0, g)], &c1 = column[1][columnOf(1, g)],
@@ -188,31 +164,7 @@ struct HexahedronFEM {
     for (int j = 0; j < 3; ++j)
       for (int i = 0; i < 3; ++i)
         f(i, j) = c0[i] * inverse(0, j) + c1[i] * inverse(1, j) + c2[i] * inverse(2, j);
-    return symmetric(f, one);
-  }
-  // sym(f) - one I
-  SINEW_INLINE static Mat3 symmetric(Mat3 const& f, Real one) {
-    Mat3 e;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j <= i; ++j)
-        e(i, j) = e(j, i) = i == j ? f(i, i) - one : Real(0.5) * (f(i, j) + f(j, i));
-    return e;
-  }
-  // mu e:e + lambda/2 tr(e)^2
-  SINEW_INLINE static Real density(Rest const& rest, Mat3 const& e) {
-    const Real trace = e(0, 0) + e(1, 1) + e(2, 2);
-    Real square(0);
-    for (int i = 0; i < 9; ++i) square += e(i) * e(i);
-    return rest.mu * square + Real(0.5) * rest.lambda * trace * trace;
-  }
-  // s = weight (2 mu e + lambda tr(e) I)
-  SINEW_INLINE static Mat3 stress(Rest const& rest, Mat3 const& e, Real weight) {
-    const Real mu2 = Real(2) * rest.mu * weight,
-               pressure = rest.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
-    Mat3 s;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j <= i; ++j) s(i, j) = s(j, i) = i == j ? mu2 * e(i, i) + pressure : mu2 * e(i, j);
-    return s;
+    return small_strain(f, one);
   }
 
   // Parallelepipeds. A term is numbered by bits of the coordinates in it: 0 is 1, 1 xi, 2 eta, 4 zeta, 3 xi
@@ -257,7 +209,7 @@ struct HexahedronFEM {
         for (int j = 0; j < 3; ++j)
           for (int i = 0; i < 3; ++i) f(i, j) += c[i] * inverse(k, j);
       }
-    return symmetric(f, term == 0 ? one : Real(0));
+    return small_strain(f, term == 0 ? one : Real(0));
   }
   // sum_k s_k r_k over e_k = sym(h r_k'), with s_k r_k = mu |r_k|^2 h + (mu + lambda) (r_k.h) r_k; and
   // sum_k q(e_k) = h.twist(h)/2
@@ -266,10 +218,10 @@ struct HexahedronFEM {
     Vec3 sum;
     Real square(0);
     for (int i = 0; i < 9; ++i) square += inverse(i) * inverse(i);
-    for (int i = 0; i < 3; ++i) sum[i] = rest.mu * square * h[i];
+    for (int i = 0; i < 3; ++i) sum[i] = rest.material.mu * square * h[i];
     for (int k = 0; k < 3; ++k) {
-      const Real along =
-          (rest.mu + rest.lambda) * (inverse(k, 0) * h[0] + inverse(k, 1) * h[1] + inverse(k, 2) * h[2]);
+      const Real along = (rest.material.mu + rest.material.lambda) *
+                         (inverse(k, 0) * h[0] + inverse(k, 1) * h[1] + inverse(k, 2) * h[2]);
       for (int i = 0; i < 3; ++i) sum[i] += along * inverse(k, i);
     }
     return sum;
@@ -282,7 +234,7 @@ struct HexahedronFEM {
     auto sign = [](int bits, int k) { return (bits >> k & 1) ? 0.5 : -0.5; };
     auto overlap = [&](int k) { return ((first ^ second) >> k & 1) ? 1.0 / 3 : 2.0 / 3; };
     Mat3 const& inverse = rest.inverse[0];
-    Mat3 half, m;  // C J^-1
+    Mat3 half;  // C J^-1
     for (int k = 0; k < 3; ++k) {
       for (int c = 0; c < 3; ++c) half(k, c) = Real(0);
       for (int l = 0; l < 3; ++l) {
@@ -291,24 +243,19 @@ struct HexahedronFEM {
         for (int c = 0; c < 3; ++c) half(k, c) += entry * inverse(l, c);
       }
     }
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r)
-        m(r, c) = rest.weight[0] *
-                  (inverse(0, r) * half(0, c) + inverse(1, r) * half(1, c) + inverse(2, r) * half(2, c));
-    return m;
+    return rest.weight[0] * (inverse.transpose() * half);
   }
 
   // f = factor R sum_g w s grad N at the strain of positions (one = 1) or displacements (one = 0)
   SINEW_HD void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[8], Real one, Real factor,
                               Deriv (&f)[8]) const {
     Vec3 y[8];
-    rotateBack(r, x, y);
+    rotate_back(r, x, y);
     if (parallelepipeds)
       forceOfTerms(rest, one, factor * rest.weight[0], y);
     else
       forceOfPoints(rest, one, factor, y);
-    for (int i = 0; i < 8; ++i)
-      for (int c = 0; c < 3; ++c) f[i][c] = r(c, 0) * y[i][0] + r(c, 1) * y[i][1] + r(c, 2) * y[i][2];
+    for (int i = 0; i < 8; ++i) f[i] = r * y[i];
   }
 
   // from positions in the frame of the element to forces
@@ -319,7 +266,7 @@ struct HexahedronFEM {
       for (int uv = 0; uv < 4; ++uv)
         for (int i = 0; i < 3; ++i) pull[k][uv][i] = Real(0);
     for (int g = 0; g < 8; ++g) {
-      const Mat3 s = stress(rest, strain(rest, column, g, one), factor * rest.weight[g]);
+      const Mat3 s = rest.material.stress(strain(rest, column, g, one), factor * rest.weight[g]);
       for (int k = 0; k < 3; ++k) addColumn(s, rest.inverse[g], k, pull[k][columnOf(k, g)]);
     }
     for (int i = 0; i < 8; ++i)
@@ -342,7 +289,8 @@ struct HexahedronFEM {
 #pragma GCC unroll 5
     for (int term = 0; term < 5; ++term)
       if (term != 3) {
-        const Mat3 s = stress(rest, strainTerm(rest, h, term, one), Real(term == 0 ? 8.0 : 8.0 / 3) * weight);
+        const Mat3 s =
+            rest.material.stress(strainTerm(rest, h, term, one), Real(term == 0 ? 8.0 : 8.0 / 3) * weight);
 #pragma GCC unroll 3
         for (int k = 0; k < 3; ++k)
           if (!(term >> k & 1)) addColumn(s, rest.inverse[0], k, p[term | 1 << k]);
@@ -351,8 +299,7 @@ struct HexahedronFEM {
   }
   // sum += s r_k
   SINEW_INLINE static void addColumn(Mat3 const& s, Mat3 const& inverse, int k, Vec3& sum) {
-    for (int i = 0; i < 3; ++i)
-      sum[i] += s(i, 0) * inverse(k, 0) + s(i, 1) * inverse(k, 1) + s(i, 2) * inverse(k, 2);
+    sum += s * inverse.row(k).transpose();
   }
 
   // gradient of shape function i in Gauss point g
@@ -365,11 +312,7 @@ struct HexahedronFEM {
       slope[k] = Real(((bits >> k & 1) ? 0.5 : -0.5) * ((differ >> across(k, 0) & 1) ? b : a) *
                       ((differ >> across(k, 1) & 1) ? b : a));
     }
-    Mat3 const& inverse = rest.inverse[g];
-    Vec3 h;
-    for (int j = 0; j < 3; ++j)
-      h[j] = slope[0] * inverse(0, j) + slope[1] * inverse(1, j) + slope[2] * inverse(2, j);
-    return h;
+    return rest.inverse[g].transpose() * slope;
   }
 
   SINEW_INLINE Mat3 rotation(Rest const& rest, Coord const (&x)[8]) const {

@@ -53,15 +53,8 @@ template <class Real>
 SINEW_INLINE Mat<Real, 3> rotation_of_jacobian(HexahedronMethod method, Mat<Real, 3> const& center,
                                                Mat<Real, 3> const& a) {
   using Vec3 = Vec<Real, 3>;
-  Mat<Real, 3> r;
   if (method == HexahedronMethod::large) return frame_of(Vec3(a.col(0)), Vec3(a.col(1)));
-  if (method == HexahedronMethod::polar)
-    r = a;
-  else
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i)
-        r(i, j) = a(i, 0) * center(0, j) + a(i, 1) * center(1, j) + a(i, 2) * center(2, j);
-  return nearest_rotation(r);
+  return nearest_rotation(method == HexahedronMethod::polar ? a : a * center);
 }
 template <class Real>
 SINEW_INLINE Mat<Real, 3> hexahedron_rotation(HexahedronMethod method, Mat<Real, 3> const& center,

@@ -224,23 +224,14 @@ struct JointSpringForceField {
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<JointSpringForceField>());
-    std::vector<typename Driver::Indices> bodies;
-    std::vector<typename Driver::Rest> rest;
-    for (std::size_t s = 0; s < springs.size(); ++s) {
-      JointSpring const& spring = springs[s];
-      check_spring_end(where, s, a, spring.first);
-      check_spring_end(where, s, b, spring.second);
-      if (!between && spring.first == spring.second)
-        throw Error(where, text("springs[", s, "] joins body ", spring.first, " to itself; give two bodies"));
-      bodies.push_back({spring.first, spring.second});
-      rest.push_back(restOf(where, s));
-    }
-    driver.init(bodies, rest);
+    init_springs(
+        *this, where, springs, a, b, {"body", "bodies"}, [&](std::size_t s, JointSpring const& spring) {
+          return restOf(where, s, spring);
+        });
   }
 
  private:
-  typename Driver::Rest restOf(std::string const& where, std::size_t s) const {
-    JointSpring const& spring = springs[s];
+  static typename Driver::Rest restOf(std::string const& where, std::size_t s, JointSpring const& spring) {
     typename Driver::Rest rest;
     const std::array<std::array<double, 2>, 3> limits{spring.limitX, spring.limitY, spring.limitZ};
     for (int i = 0; i < 3; ++i) {

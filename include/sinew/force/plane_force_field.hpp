@@ -2,10 +2,9 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/element_driver.hpp>
+#include <sinew/force/point_penalty.hpp>
 
 #include <limits>
-#include <vector>
 
 namespace sinew {
 
@@ -38,7 +37,7 @@ struct PlanePenalty {
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[1]) const {
     const Real h = depth(x[0]), zero(0);
-    const auto acts = touches(h);
+    const auto acts = is_touched(h, bilateral);
     const Real free = Real(0.5) * rest.stiffness * h * h;
     if (!limited) return select(acts, free, zero);
     // beyond the depth where k |h| |n| = maxForce the force stays, and the energy is linear
@@ -51,7 +50,7 @@ struct PlanePenalty {
                       Tangent& tangent) const {
     using std::sqrt, sinew::sqrt;
     const Real h = depth(x[0]), zero(0);
-    const auto acts = touches(h);
+    const auto acts = is_touched(h, bilateral);
     const Real push = select(acts, rest.stiffness * h, zero);
     Real damping = select(acts, rest.damping * select(h > zero, h, -h), zero);
     Real stiffness = select(acts, rest.stiffness, zero);
@@ -78,11 +77,7 @@ struct PlanePenalty {
 
   SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
                        Real b) const {
-    const Mat<Real, D::size> m = block(rest, tangent, 0, 0, k, b);
-    for (int r = 0; r < D::size; ++r) {
-      df[0][r] = Real(0);
-      for (int c = 0; c < (r < D::spatial ? D::spatial : 0); ++c) df[0][r] += m(r, c) * dx[0][c];
-    }
+    push_place<D>(block(rest, tangent, 0, 0, k, b), dx[0], df[0]);
   }
 
   SINEW_INLINE Mat<Real, D::size> block(Rest const&, Tangent const& tangent, int, int, Real k, Real b) const {
@@ -104,11 +99,6 @@ struct PlanePenalty {
     Real h = d;
     for (int c = 0; c < D::spatial; ++c) h -= normal[c] * p[c];
     return h;
-  }
-  SINEW_INLINE auto touches(Real const& h) const {
-    auto acts = h > Real(0);
-    if (bilateral) acts = h == h;
-    return acts;
   }
 };
 
@@ -144,9 +134,7 @@ struct PlaneForceField {
 
   void init(InitContext<D> const& context) {
     takeValues(context.where, context.rest.size());
-    std::vector<typename Driver::Indices> points(context.rest.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
-    driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
+    init_each_point(driver, context.rest.size(), {Real(stiffness), Real(damping)});
   }
   void takeValues(std::string_view where, std::size_t /*points*/) const {
     if (!(normal.norm() > 0))

@@ -45,11 +45,10 @@ struct RepulsiveSpringForceField {
     const std::string where = text(a.where, ": ", component_name<RepulsiveSpringForceField>());
     std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
-    for_each_spring(
-        where, *this, a, b, !between, [&](std::size_t, std::size_t, Spring const& spring, Real length) {
-          points.push_back({spring.first, spring.second});
-          rest.push_back({Real(spring.stiffness), Real(spring.damping), length});
-        });
+    for_each_spring(where, *this, a, b, [&](std::size_t, std::size_t, Spring const& spring, Real length) {
+      points.push_back({spring.first, spring.second});
+      rest.push_back({Real(spring.stiffness), Real(spring.damping), length});
+    });
     driver.init(points, rest);
   }
 };

@@ -18,6 +18,17 @@ SINEW_INLINE Real dot3(Vec<Real, 3> const& a, Vec<Real, 3> const& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// R S R'
+template <class Real>
+SINEW_INLINE Mat<Real, 3> rotated(Mat<Real, 3> const& r, Mat<Real, 3> const& s) {
+  return r * (s * r.transpose());
+}
+/// y_i = R'(x_i - x_0)
+template <class Real, std::size_t N>
+SINEW_INLINE void rotate_back(Mat<Real, 3> const& r, Vec<Real, 3> const (&x)[N], Vec<Real, 3> (&y)[N]) {
+  for (std::size_t i = 0; i < N; ++i) y[i] = r.transpose() * (x[i] - x[0]);
+}
+
 /// Right-handed frame: first axis along a, third normal to a and b.
 template <class Real>
 SINEW_INLINE Mat<Real, 3> frame_of(Vec<Real, 3> const& a, Vec<Real, 3> const& b) {
@@ -48,9 +59,7 @@ SINEW_HD Mat<Real, 3> nearest_rotation(Mat<Real, 3> const& f) {
   for (int iteration = 0; iteration < 40; ++iteration) {
     Vec3 a(Real(0), Real(0), Real(0));
     for (int c = 0; c < 3; ++c) a += cross3(Vec3(r.col(c)), Vec3(f.col(c)));
-    Mat<Real, 3> m;
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j < 3; ++j) m(i, j) = f(i, 0) * r(j, 0) + f(i, 1) * r(j, 1) + f(i, 2) * r(j, 2);
+    const Mat<Real, 3> m = f * r.transpose();
     // adjugate of tr(M) I - M
     const Real trace = m(0, 0) + m(1, 1) + m(2, 2);
     const Real xx = trace - m(0, 0), yy = trace - m(1, 1), zz = trace - m(2, 2);

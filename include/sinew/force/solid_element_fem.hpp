@@ -48,7 +48,7 @@ struct SolidElementFEM {
     Real weight[G];    // its weight times det J [m^3]
     Vec3 node[N];      // X_i - mean X over the sum of the squares of all [1/m]
     Mat3 inverseRest;  // S^-1 times that sum, for `nearest`
-    Real mu, lambda;   // [Pa]
+    IsotropicMaterial<Real> material;
   };
   struct Tangent {
     Mat3 rotation;
@@ -58,15 +58,10 @@ struct SolidElementFEM {
 
   SINEW_HD Real energy(Rest const& rest, Coord const (&x)[N]) const {
     Vec3 y[N];
-    rotateBack(rotation(rest, x), x, y);
+    rotate_back(rotation(rest, x), x, y);
     Real sum(0);
-    for (int g = 0; g < points; ++g) {
-      const Mat3 e = strain(rest, y, g, Real(1));
-      const Real trace = e(0, 0) + e(1, 1) + e(2, 2);
-      Real square(0);
-      for (int i = 0; i < 9; ++i) square += e(i) * e(i);
-      sum += rest.weight[g] * (rest.mu * square + Real(0.5) * rest.lambda * trace * trace);
-    }
+    for (int g = 0; g < points; ++g)
+      sum += rest.weight[g] * rest.material.energy(strain(rest, y, g, Real(1)));
     return sum;
   }
 
@@ -83,27 +78,14 @@ struct SolidElementFEM {
 
   /// -k R sum_g w (lambda h_i h_j' + mu h_j h_i' + mu h_i.h_j I) R',  h_i = grad N_i
   SINEW_HD Mat3 block(Rest const& rest, Tangent const& tangent, int i, int j, Real k, Real /*b*/) const {
-    Mat3 m, rotated, block;  // m = sum_g w h_i h_j'
+    Mat3 m;  // sum_g w h_i h_j'
     for (int c = 0; c < 9; ++c) m(c) = Real(0);
     for (int g = 0; g < points; ++g) {
       const Vec3 hi = gradient(rest, g, i) * rest.weight[g], hj = gradient(rest, g, j);
       for (int c = 0; c < 3; ++c)
         for (int r = 0; r < 3; ++r) m(r, c) += hi[r] * hj[c];
     }
-    const Real trace = rest.mu * (m(0, 0) + m(1, 1) + m(2, 2));
-    Mat3 s;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) {
-        s(r, c) = -k * (rest.lambda * m(r, c) + rest.mu * m(c, r));
-        if (r == c) s(r, c) -= k * trace;
-      }
-    Mat3 const& q = tangent.rotation;
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r) rotated(r, c) = s(r, 0) * q(c, 0) + s(r, 1) * q(c, 1) + s(r, 2) * q(c, 2);
-    for (int c = 0; c < 3; ++c)
-      for (int r = 0; r < 3; ++r)
-        block(r, c) = q(r, 0) * rotated(0, c) + q(r, 1) * rotated(1, c) + q(r, 2) * rotated(2, c);
-    return block;
+    return rotated(tangent.rotation, rest.material.stiffness(m, -k));
   }
 
   /// Rest data of the element with rest positions x, whichever way round its nodes go; a weight that is not
@@ -134,8 +116,7 @@ struct SolidElementFEM {
       rest.node[i] /= squares;
     }
     rest.inverseRest = atRest.inverse();
-    rest.mu = mu;
-    rest.lambda = lambda;
+    rest.material = {mu, lambda};
     return rest;
   }
 
@@ -156,72 +137,43 @@ struct SolidElementFEM {
       for (int c = 0; c < 3; ++c)
         for (int k = 0; k < 3; ++k) r(k, c) += d[k] * rest.node[i][c];
     }
-    if (method == ElementRotation::polar) return nearest_rotation(r);
-    Mat3 f;
-    for (int c = 0; c < 3; ++c)
-      for (int k = 0; k < 3; ++k)
-        f(k, c) = r(k, 0) * rest.inverseRest(0, c) + r(k, 1) * rest.inverseRest(1, c) +
-                  r(k, 2) * rest.inverseRest(2, c);
-    return nearest_rotation(f);
-  }
-  // y = R'(x - x_0)
-  SINEW_INLINE static void rotateBack(Mat3 const& r, Coord const (&x)[N], Vec3 (&y)[N]) {
-    for (int i = 0; i < arity; ++i) {
-      const Vec3 d = x[i] - x[0];
-      for (int c = 0; c < 3; ++c) y[i][c] = r(0, c) * d[0] + r(1, c) * d[1] + r(2, c) * d[2];
-    }
+    return nearest_rotation(method == ElementRotation::polar ? r : r * rest.inverseRest);
   }
   // sym(sum_i y_i grad N_i') - one I; y_0 = 0
   SINEW_INLINE static Mat3 strain(Rest const& rest, Vec3 const (&y)[N], int g, Real one) {
-    Mat3 column, f, e;
+    Mat3 column;
     for (int c = 0; c < 9; ++c) column(c) = Real(0);
     for (int i = 1; i < arity; ++i)
       for (int k = 0; k < 3; ++k) {
         const Real slope = slopes(g, i, k);
         for (int c = 0; c < 3; ++c) column(c, k) += y[i][c] * slope;
       }
-    Mat3 const& inverse = rest.inverse[g];
-    for (int j = 0; j < 3; ++j)
-      for (int i = 0; i < 3; ++i)
-        f(i, j) = column(i, 0) * inverse(0, j) + column(i, 1) * inverse(1, j) + column(i, 2) * inverse(2, j);
-    for (int i = 0; i < 3; ++i)
-      for (int j = 0; j <= i; ++j)
-        e(i, j) = e(j, i) = i == j ? f(i, i) - one : Real(0.5) * (f(i, j) + f(j, i));
-    return e;
+    return small_strain(column * rest.inverse[g], one);
   }
   // f = factor R sum_g w s grad N at the strain of positions (one = 1) or displacements (one = 0)
   SINEW_HD void internalForce(Rest const& rest, Mat3 const& r, Coord const (&x)[N], Real one, Real factor,
                               Deriv (&f)[N]) const {
     Vec3 y[N], sum[N];
-    rotateBack(r, x, y);
+    rotate_back(r, x, y);
     for (int i = 0; i < arity; ++i)
       for (int c = 0; c < 3; ++c) sum[i][c] = Real(0);
     for (int g = 0; g < points; ++g) {
       const Mat3 e = strain(rest, y, g, one);
-      const Real weight = factor * rest.weight[g], mu2 = Real(2) * rest.mu * weight,
-                 pressure = rest.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
-      Mat3 const& inverse = rest.inverse[g];
-      Mat3 pull;  // s J^-T
-      for (int k = 0; k < 3; ++k)
-        for (int c = 0; c < 3; ++c)
-          pull(c, k) = mu2 * (e(c, 0) * inverse(k, 0) + e(c, 1) * inverse(k, 1) + e(c, 2) * inverse(k, 2)) +
-                       pressure * inverse(k, c);
+      const Real weight = factor * rest.weight[g], mu2 = Real(2) * rest.material.mu * weight,
+                 pressure = rest.material.lambda * weight * (e(0, 0) + e(1, 1) + e(2, 2));
+      const Mat3 inverse = rest.inverse[g].transpose();
+      const Mat3 pull = mu2 * (e * inverse) + pressure * inverse;  // s J^-T
       for (int i = 0; i < arity; ++i)
         for (int k = 0; k < 3; ++k) {
           const Real slope = slopes(g, i, k);
           for (int c = 0; c < 3; ++c) sum[i][c] += pull(c, k) * slope;
         }
     }
-    for (int i = 0; i < arity; ++i)
-      for (int c = 0; c < 3; ++c) f[i][c] = r(c, 0) * sum[i][0] + r(c, 1) * sum[i][1] + r(c, 2) * sum[i][2];
+    for (int i = 0; i < arity; ++i) f[i] = r * sum[i];
   }
   // of shape function i in Gauss point g
   SINEW_INLINE static Vec3 gradient(Rest const& rest, int g, int i) {
-    Mat3 const& inverse = rest.inverse[g];
-    const Real r = slopes(g, i, 0), s = slopes(g, i, 1), t = slopes(g, i, 2);
-    Vec3 h;
-    for (int j = 0; j < 3; ++j) h[j] = r * inverse(0, j) + s * inverse(1, j) + t * inverse(2, j);
-    return h;
+    return rest.inverse[g].transpose() * Vec3(slopes(g, i, 0), slopes(g, i, 1), slopes(g, i, 2));
   }
 };
 

@@ -2,10 +2,9 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/core/element_driver.hpp>
+#include <sinew/force/point_penalty.hpp>
 
 #include <limits>
-#include <vector>
 
 namespace sinew {
 
@@ -40,7 +39,7 @@ struct SpherePenalty {
     using std::sqrt, sinew::sqrt;
     const Place away = from(x[0]);
     const Real h = radius - sqrt(square(away));
-    return select(touches(h), Real(0.5) * rest.stiffness * h * h, Real(0));
+    return select(is_touched(h, bilateral), Real(0.5) * rest.stiffness * h * h, Real(0));
   }
 
   SINEW_HD void force(Rest const& rest, Coord const (&x)[1], Deriv const (&v)[1], Deriv (&f)[1],
@@ -48,7 +47,7 @@ struct SpherePenalty {
     using std::sqrt, sinew::sqrt;
     const Place away = from(x[0]);
     const Real zero(0), l = sqrt(square(away)), h = radius - l;
-    const auto acts = touches(h);
+    const auto acts = is_touched(h, bilateral);
     const Real inverse = select(l > Real(1e-9) * radius, Real(1) / l, zero);
     tangent.stiffness = select(acts, rest.stiffness, zero);
     tangent.across = tangent.stiffness * h * inverse;
@@ -62,11 +61,7 @@ struct SpherePenalty {
 
   SINEW_HD void dforce(Rest const& rest, Tangent const& tangent, Deriv const (&dx)[1], Deriv (&df)[1], Real k,
                        Real b) const {
-    const Mat<Real, D::size> m = block(rest, tangent, 0, 0, k, b);
-    for (int r = 0; r < D::size; ++r) {
-      df[0][r] = Real(0);
-      for (int c = 0; c < (r < D::spatial ? D::spatial : 0); ++c) df[0][r] += m(r, c) * dx[0][c];
-    }
+    push_place<D>(block(rest, tangent, 0, 0, k, b), dx[0], df[0]);
   }
 
   SINEW_INLINE Mat<Real, D::size> block(Rest const&, Tangent const& tangent, int, int, Real k, Real b) const {
@@ -93,11 +88,6 @@ struct SpherePenalty {
     Real sum(std::numeric_limits<lane_scalar<Real>>::min());
     for (int c = 0; c < D::spatial; ++c) sum += p[c] * p[c];
     return sum;
-  }
-  SINEW_INLINE auto touches(Real const& h) const {
-    auto acts = h > Real(0);
-    if (bilateral) acts = h == h;
-    return acts;
   }
 };
 
@@ -131,9 +121,7 @@ struct SphereForceField {
   Driver driver{};
 
   void init(InitContext<D> const& context) {
-    std::vector<typename Driver::Indices> points(context.rest.size());
-    for (std::size_t i = 0; i < points.size(); ++i) points[i] = {int(i)};
-    driver.init(points, std::vector<typename Driver::Rest>(points.size(), {Real(stiffness), Real(damping)}));
+    init_each_point(driver, context.rest.size(), {Real(stiffness), Real(damping)});
   }
   void followPoints(Renumbering const&, std::size_t points)
   requires(counts_points<Driver>)

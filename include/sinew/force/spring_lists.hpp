@@ -88,18 +88,15 @@ std::vector<Spring> springs_of_lists(std::string const& where, F const& of) {
   return all;
 }
 
-/// take(number, spring, its length without force) for each that is there, between points of two states or,
-/// with `within`, of one. Throws Error where an end is not there, or both are one.
+/// take(number, how many there are, spring, its length without force) for each that is there. Throws Error
+/// where an end is not there, or both are one.
 template <class F, class D, class Take>
 void for_each_spring(std::string const& where, F const& of, InitContext<D> const& a, InitContext<D> const& b,
-                     bool within, Take&& take) {
+                     Take&& take) {
   const std::vector<Spring> all = springs_of_lists(where, of);
   for (std::size_t s = 0; s < all.size(); ++s) {
     Spring const& spring = all[s];
-    check_spring_end(where, s, a, spring.first);
-    check_spring_end(where, s, b, spring.second);
-    if (within && spring.first == spring.second)
-      throw Error(where, text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
+    check_spring_ends<F>(where, s, spring, a, b);
     if (!of_spring(where, "enabled", of.enabled, s, all.size(), true)) continue;
     using Real = typename D::Real;
     const Real length =

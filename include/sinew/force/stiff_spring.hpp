@@ -53,12 +53,11 @@ struct StiffSpringForceField {
     const std::string where = text(a.where, ": ", component_name<StiffSpringForceField>());
     std::vector<typename Driver::Indices> points;
     std::vector<typename Driver::Rest> rest;
-    for_each_spring(
-        where, *this, a, b, !between, [&](std::size_t s, std::size_t n, Spring const& spring, Real length) {
-          const bool string = of_spring(where, "elongationOnly", elongationOnly, s, n, false);
-          points.push_back({spring.first, spring.second});
-          rest.push_back({Real(spring.stiffness), Real(spring.damping), string ? -length : length});
-        });
+    for_each_spring(where, *this, a, b, [&](std::size_t s, std::size_t n, Spring const& spring, Real length) {
+      const bool string = of_spring(where, "elongationOnly", elongationOnly, s, n, false);
+      points.push_back({spring.first, spring.second});
+      rest.push_back({Real(spring.stiffness), Real(spring.damping), string ? -length : length});
+    });
     driver.init(points, rest);
   }
 };

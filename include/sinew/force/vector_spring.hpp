@@ -120,24 +120,14 @@ struct VectorSpringForceField {
   void init(InitContext<D> const& context) { init(context, context); }
   void init(InitContext<D> const& a, InitContext<D> const& b) {
     const std::string where = text(a.where, ": ", component_name<VectorSpringForceField>());
-    std::vector<typename Driver::Indices> points;
-    std::vector<typename Driver::Rest> rest;
-    const std::vector<VectorSpring> all = springs.empty() ? implied(where, a, b) : springs;
-    for (std::size_t s = 0; s < all.size(); ++s) {
-      VectorSpring const& spring = all[s];
-      check_spring_end(where, s, a, spring.first);
-      check_spring_end(where, s, b, spring.second);
-      if (!between && spring.first == spring.second)
-        throw Error(where,
-                    text("springs[", s, "] joins point ", spring.first, " to itself; give two points"));
+    auto restOf = [&](std::size_t, VectorSpring const& spring) -> typename Driver::Rest {
       const typename D::Deriv vector =
           spring.restVector
               ? typename D::Deriv(spring.restVector->template cast<Real>())
               : typename D::Deriv(b.rest[std::size_t(spring.second)] - a.rest[std::size_t(spring.first)]);
-      points.push_back({spring.first, spring.second});
-      rest.push_back({Real(spring.stiffness), Real(spring.damping), vector});
-    }
-    driver.init(points, rest);
+      return {Real(spring.stiffness), Real(spring.damping), vector};
+    };
+    init_springs(*this, where, springs.empty() ? implied(where, a, b) : springs, a, b, {}, restOf);
   }
 
  private:

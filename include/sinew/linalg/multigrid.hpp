@@ -18,10 +18,11 @@ struct MultigridSettings {
   int coarsestSize = 200;  // unknowns up to which a level is solved by its factor
   double threshold = 0.05;
   int degree = 2;
+  int cycles = 1;  // of a coarse level in one of the level above: 1 V, 2 W
 };
 
-/// z = M^-1 r by one V-cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996) for a symmetric block
-/// matrix with a near null space of up to six modes: Chebyshev smoothing before and behind, Galerkin
+/// z = M^-1 r by one cycle, V or W, of smoothed aggregation (Vanek, Mandel, Brezina 1996) for a symmetric
+/// block matrix with a near null space of up to six modes: Chebyshev smoothing before and behind, Galerkin
 /// products, the coarsest level by its factor. It is symmetric, and positive definite where the matrix is.
 /// The first update finds aggregates and patterns, later ones fill them, without allocating unless points
 /// have come to be held, or are held no more. Bits do not depend on the number of threads.
@@ -44,10 +45,10 @@ class Multigrid {
     fine.init(workers);
     modes.assign(fine.modes.size(), Row{});
     alone.clear();
-    built = false;
+    reset();
   }
   /// Finds aggregates and patterns anew at the next update.
-  void reset() { built = false; }
+  void reset() { known = built = false; }
 
   /// The values of the matrix, with the modes.
   template <class Matrix, class Run>
@@ -57,7 +58,13 @@ class Multigrid {
     fine.update(workers);
     holdModes(workers);
     if (!finite) return;
-    if (!built) coarse.clear(), coarse.reserve(std::size_t(settings.levels));
+    if (!built) {
+      coarse.clear(), coarse.reserve(std::size_t(settings.levels));
+      again = known && alone == firstAlone;
+      finds = !known;
+      if (finds) firstAlone = alone, first.clear();
+      known = true;
+    }
     bool more = next(workers, fine, 0);
     for (std::size_t k = 0; more; ++k) more = next(workers, coarse[k], k + 1);
     const bool direct = coarse.empty() ? solvable(fine.matrix) : solvable(coarse.back().matrix);
@@ -103,6 +110,11 @@ class Multigrid {
   int dofs = 0;
   double size = 1;  // root of the mean of the diagonal
   bool built = false, finite = true;
+  // Of the first update: where the same points are held as then, they are taken again, so that a scene that
+  // is reset has the same bits.
+  std::vector<Aggregates> first{};
+  std::vector<char> firstAlone{};
+  bool known = false, again = false, finds = false;  // there are those; they are taken; they are looked for
 
   template <class Vector>
   Eigen::Vector3d threeOf(Vector const& v, int i) const {
@@ -145,14 +157,15 @@ class Multigrid {
     if (!built) {
       if (solvable(level.matrix) || int(index) + 1 >= settings.levels) return false;
       auto& below = coarse.emplace_back();
+      if (again && index >= first.size()) return coarse.pop_back(), false;
       if (!level.down.init(level.matrix,
                            R == 3 ? alone : std::vector<char>{},
                            settings.threshold,
                            workers.count(),
-                           below.matrix)) {
-        coarse.pop_back();
-        return false;
-      }
+                           below.matrix,
+                           again ? &first[index] : nullptr))
+        return coarse.pop_back(), false;
+      if (finds) first.push_back({level.down.aggregate, level.down.coarseRows()});
       below.init(workers);
     } else if (index >= coarse.size()) {
       return false;
@@ -178,10 +191,11 @@ class Multigrid {
       if (factor.factorise(a, shift) < 0 && factor.negativePivots == 0) return;
   }
 
+  // One cycle: x from 0 where it is `fresh`, else on from what it is, of which r is the residual.
   template <class Run, int R>
-  void cycle(Run const& workers, MultigridLevel<R>& level, std::size_t index) {
+  void cycle(Run const& workers, MultigridLevel<R>& level, std::size_t index, bool fresh = true) {
     if (index == coarse.size()) {
-      if (!solvable(level.matrix)) return level.smooth(workers, 2 * settings.degree, true, false, false);
+      if (!solvable(level.matrix)) return level.smooth(workers, 2 * settings.degree, fresh, false, false);
       constexpr int stride = MultigridLevel<R>::stride;
       for (int i = 0; i < level.matrix.rows(); ++i)
         for (int c = 0; c < R; ++c) load_[R * i + c] = double(level.r[std::size_t(stride * i + c)]);
@@ -194,9 +208,15 @@ class Multigrid {
       return;
     }
     auto& below = coarse[index];
-    level.smooth(workers, settings.degree, true, false, true);
+    level.smooth(workers, settings.degree, fresh, false, true);
     level.down.restrictTo(workers, level.r.data(), MultigridLevel<R>::stride, below.r.data());
-    cycle(workers, below, index + 1);
+    const bool exact = index + 1 == coarse.size() && solvable(below.matrix);
+    const int cycles = exact ? 1 : settings.cycles;
+    if (cycles > 1) below.b = below.r;
+    for (int k = 0; k < cycles; ++k) {
+      if (k > 0) below.residual(workers);
+      cycle(workers, below, index + 1, k == 0);
+    }
     level.down.prolong(workers, below.x.data(), level.d.data(), MultigridLevel<R>::stride);
     level.add(workers);
     level.multiply(workers);

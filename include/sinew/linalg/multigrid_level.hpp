@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -28,7 +29,8 @@ struct MultigridLevel {
   std::vector<Row> modes{};
   Prolongation<R> down{};  // to the level below, where there is one
   std::vector<float> x{}, r{}, d{}, q{};
-  double bound = 1;  // of the eigenvalues
+  std::vector<float> b{};  // r of x = 0, of coarse levels
+  double bound = 1;        // of the eigenvalues
 
   /// Room, once the pattern of the matrix is there.
   template <class Run>
@@ -49,6 +51,7 @@ struct MultigridLevel {
     unit.inverse.resize(n);
     modes.assign(n * R, Row{});
     for (auto* v : {&x, &r, &d, &q}) v->assign(n * stride + 1, 0);
+    if (R != 3) b = r;
     workers.reserveSums(n * stride / std::size_t(vec::piece) + 1);
   }
 
@@ -99,6 +102,25 @@ struct MultigridLevel {
       if (k < degree || wanted) multiply(workers);
     }
     if (wanted) each(workers, [&](auto&& part) { part(r) -= part(q); });
+  }
+
+  /// r = b - A x, with A in double: motions that cost next to nothing are large in x, and the rounding of A x
+  /// would ask for more of them.
+  template <class Run>
+  void residual(Run const& workers) {
+    share_rows(workers, matrix.rows(), [&](int i, int) {
+      double sums[std::size_t(R)] = {};
+      matrix.forEachInRow(i, [&](int j, int slot, bool transposed) {
+        double const* const a = std::as_const(matrix).block(slot);
+        for (int row = 0; row < R; ++row)
+          for (int c = 0; c < R; ++c)
+            sums[row] += a[transposed ? R * c + row : R * row + c] * double(x[std::size_t(stride * j + c)]);
+      });
+      for (int row = 0; row < R; ++row) {
+        const std::size_t k = std::size_t(stride * i + row);
+        r[k] = float(double(b[k]) - sums[row]);
+      }
+    });
   }
 
   /// x += d

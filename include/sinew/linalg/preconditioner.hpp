@@ -21,7 +21,7 @@ namespace sinew {
 ///   ssor                (D/w + L) (D/w)^-1 (D/w + L)' / (2 - w), one sweep there and back (Axelsson 1972)
 ///   incompleteCholesky  L D L' with the blocks of A and no more, IC(0) (Meijerink, van der Vorst 1977)
 ///   ldl                 A itself, factorised: of use for several steps, while A changes little
-///   multigrid           a V-cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996), of a matrix whose
+///   multigrid           a cycle of smoothed aggregation (Vanek, Mandel, Brezina 1996), of a matrix whose
 ///                       modes of least energy are known: `modes` of it, before update
 enum class PreconditionerMethod { none, jacobi, blockJacobi, ssor, incompleteCholesky, ldl, multigrid };
 inline constexpr std::array<std::string_view, 7> enum_names(PreconditionerMethod) {
@@ -30,7 +30,7 @@ inline constexpr std::array<std::string_view, 7> enum_names(PreconditionerMethod
 
 /// z = M^-1 r, where M is near to a block matrix and easily solved. Positive definite whatever the matrix is
 /// (with multigrid, where the matrix is), so that conjugate gradients may use it. update and apply do not
-/// allocate, but for the first update of multigrid.
+/// allocate, but for the first update of multigrid, which needs values (prepare_multigrid).
 template <class Matrix>
 struct Preconditioner {
   using Real = typename Matrix::Real;

@@ -33,23 +33,13 @@ struct Prolongation {
   int coarseRows() const { return int(memberStart.size()) - 1; }
 
   /// Aggregates and patterns, that of the coarse matrix too. Connections count where the Frobenius norm of
-  /// their block is above `threshold`; rows that are `alone` take nothing from the coarse side. False where
-  /// there is nothing to aggregate, or no row would be saved.
+  /// their block is above `threshold`; rows that are `alone` take nothing from the coarse side. Aggregates
+  /// that are `known` are not looked for. False where there is nothing to aggregate, or no row would be
+  /// saved.
   bool init(Fine const& a, std::vector<char> const& alone, double threshold, int threads,
-            CompressedRowSparseMatrix<double, 6>& coarse) {
+            CompressedRowSparseMatrix<double, 6>& coarse, Aggregates const* known = nullptr) {
     const int n = a.rows();
-    std::vector<int> strongStart{0}, strong;
-    std::vector<float> strength;
-    for (int i = 0; i < n; ++i) {
-      a.forEachInRow(i, [&](int j, int slot, bool) {
-        const double norm = std::sqrt(squared_norm(a.block(slot)));
-        if (j == i || !(norm > threshold)) return;
-        strong.push_back(j);
-        strength.push_back(float(norm));
-      });
-      strongStart.push_back(int(strong.size()));
-    }
-    Aggregates found = aggregate_points(strongStart, strong, strength);
+    Aggregates found = known ? *known : find(a, threshold);
     if (found.count == 0 || 6 * found.count >= R * n) return false;
     aggregate = std::move(found.of);
     collect(found.count);
@@ -177,6 +167,20 @@ struct Prolongation {
   }
 
  private:
+  static Aggregates find(Fine const& a, double threshold) {
+    std::vector<int> start{0}, strong;
+    std::vector<float> strength;
+    for (int i = 0; i < a.rows(); ++i) {
+      a.forEachInRow(i, [&](int j, int slot, bool) {
+        const double norm = std::sqrt(squared_norm(a.block(slot)));
+        if (j == i || !(norm > threshold)) return;
+        strong.push_back(j);
+        strength.push_back(float(norm));
+      });
+      start.push_back(int(strong.size()));
+    }
+    return aggregate_points(start, strong, strength);
+  }
   static double squared_norm(double const* block) {
     double sum = 0;
     for (int k = 0; k < R * R; ++k) sum += block[k] * block[k];

@@ -1,45 +1,26 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measure_driver.hpp>
-#include <sinew/mapping/measured_elements.hpp>
+#include <sinew/core/cross_matrix.hpp>
+#include <sinew/mapping/element_measure_mapping.hpp>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <limits>
-#include <string_view>
 
 namespace sinew {
 
-/// Each point of the child is the area of a triangle of the parent. With s_k the side across corner k, in the
-/// order of the corners, N = s_1 x s_2 and n = N/|N|:
-///   A = |N|/2,   dA/dx_k = s_k x n / 2
-///   d2A/dx_i dx_j = ([s_i]x' (I - n n') [s_j]x / |N| + c_ij [n]x) / 2,  c_ij = -1, 1, 0 for j = i + 1, i -
-///   1, i
-/// The triangles are those of the topology in the node of the mapping, or else of the parent's. One without
-/// area has no J and no K_g. `stabilized` has no K_g for triangles that push (f > 0).
-template <class I, class O>
-struct AreaMapping {
-  using Role = role::Mapping;
-  using In = I;
-  using Out = O;
-  using Real = typename In::Real;
-  static constexpr int N = In::spatial;
-  static_assert(!In::rigid && In::size == 3, "Sinew: AreaMapping maps Vec3 to Vec1");
-  static constexpr std::string_view className = "AreaMapping";
-  static constexpr bool overParent = true;
+struct TriangleAreas {
+  static constexpr std::string_view className = "AreaMapping", noun = "triangle", plural = "triangles",
+                                    stiffnessWords =
+                                        "geometric stiffness: what rotating sides add to the stiffness";
+  static constexpr auto elements = &TopologyView::triangles;
+  static constexpr ElementKind element = ElementKind::triangle;
 
-  GeometricStiffness geometricStiffness = GeometricStiffness::stabilized;
-
-  static constexpr auto fields() {
-    using M = AreaMapping;
-    return field_list(field("geometricStiffness",
-                            &M::geometricStiffness,
-                            "",
-                            "geometric stiffness: what rotating sides add to the stiffness"));
-  }
-
+  template <class In>
   struct Measure {
+    static_assert(!In::rigid && In::size == 3, "Sinew: AreaMapping maps Vec3 to Vec1");
+    using Real = typename In::Real;
     static constexpr int arity = 3;
     std::array<Vec<Real, 3>, 3> side{};  // s_k
     Vec<Real, 3> normal = Vec<Real, 3>::Zero();
@@ -56,52 +37,22 @@ struct AreaMapping {
     Vec<Real, 3> slope(int k) const { return side[std::size_t(k)].cross(normal) / 2; }
     Mat<Real, 3> second(int i, int j) const {
       const Mat<Real, 3> across = Mat<Real, 3>::Identity() - normal * normal.transpose();
-      Mat<Real, 3> m =
-          cross(side[std::size_t(i)]).transpose() * across * cross(side[std::size_t(j)]) * inverse;
-      if (i != j) m += (j == (i + 1) % 3 ? Real(-1) : Real(1)) * cross(normal);
+      Mat<Real, 3> m = cross_matrix(side[std::size_t(i)]).transpose() * across *
+                       cross_matrix(side[std::size_t(j)]) * inverse;
+      if (i != j) m += (j == (i + 1) % 3 ? Real(-1) : Real(1)) * cross_matrix(normal);
       return m / 2;
     }
-    static Mat<Real, 3> cross(Vec<Real, 3> const& a) {
-      Mat<Real, 3> m;
-      m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-      return m;
-    }
   };
-  MeasureDriver<In, Out, Measure> measures{};
-
-  /// Throws Error where there are no triangles, or a child has another number of points.
-  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
-    const std::string where = text(child.where, ": ", component_name<AreaMapping>());
-    measures.all.clear();
-    for (Triangle const& t :
-         detail::measured_elements(parent, child, where, "triangle", "triangles", &TopologyView::triangles))
-      measures.all.push_back({t, {}});
-    measures.place(positions, where, "triangles");
-  }
-
-  std::vector<bool> pointsThatStay(TopologyView const&, TopologyChange const& change) const {
-    return change.of(ElementKind::triangle).stays();
-  }
-
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    measures.applyJ(out, in);
-  }
-  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    measures.applyJT(in, out);
-  }
-  template <class F>
-  void forEachJacobianBlock(int point, F&& f) const {
-    measures.forEachJacobianBlock(point, f);
-  }
-  void updateK(typename Out::VecDeriv const& f) { measures.updateK(f, geometricStiffness); }
-  void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
-    if (geometricStiffness != GeometricStiffness::none) measures.addKx(df, dx, k);
-  }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
-    if (geometricStiffness != GeometricStiffness::none) measures.addToMatrix(p, sink);
-  }
 };
+
+/// Each point of the child is the area of a triangle of the parent. With s_k the side across corner k, in the
+/// order of the corners, N = s_1 x s_2 and n = N/|N|:
+///   A = |N|/2,   dA/dx_k = s_k x n / 2
+///   d2A/dx_i dx_j = ([s_i]x' (I - n n') [s_j]x / |N| + c_ij [n]x) / 2,  c_ij = -1, 1, 0 for j = i + 1, i -
+///   1, i
+/// The triangles are those of the topology in the node of the mapping, or else of the parent's. One without
+/// area has no J and no K_g. `stabilized` has no K_g for triangles that push (f > 0).
+template <class I, class O>
+using AreaMapping = ElementMeasureMapping<I, O, TriangleAreas>;
 
 }  // namespace sinew

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/data_types.hpp>
+#include <sinew/core/cross_matrix.hpp>
 
 #include <array>
 #include <cstddef>
@@ -72,8 +72,9 @@ struct BeamCarriers {
         // by w
         const Quat<Real> part = section.sides[k] * inverse;
         const Real weight = k == 0 ? 1 - c.place : c.place;
-        const Mat<Real, 3> spin = weight * (part.w() * Mat<Real, 3>::Identity() - cross(part.vec()));
-        rotationJacobians[i][k] = -cross(section.tangents[k]) - cross(arm) * spin;
+        const Mat<Real, 3> spin =
+            weight * (part.w() * Mat<Real, 3>::Identity() - cross_matrix(Vec3(part.vec())));
+        rotationJacobians[i][k] = -cross_matrix(section.tangents[k]) - cross_matrix(arm) * spin;
       }
     }
   }
@@ -112,9 +113,6 @@ struct BeamCarriers {
   static Real weightOf(Carrier const& c, std::size_t k) {
     const Real f = c.place * c.place * (3 - 2 * c.place);
     return k == 0 ? 1 - f : f;
-  }
-  static Mat<Real, 3> cross(Vec3 const& a) {
-    return (Mat<Real, 3>() << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0).finished();
   }
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/core/data_types.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/mapping/carried_points.hpp>
 
 #include <Eigen/SVD>
@@ -151,11 +151,10 @@ struct CarriedFrames {
   Mat<Real, 6, 3> jacobian(std::size_t i, int k, Carriers const& carriers, Carriers const& others) const {
     Frame const& frame = frames[i];
     Eigen::Vector3d const& g = frame.gradients[std::size_t(k)];
-    Matrix cross;
-    cross << 0, -g[2], g[1], g[2], 0, -g[0], -g[1], g[0], 0;
     Mat<Real, 6, 3> j;
     j.template topRows<3>() = Mat<Real, 3>::Identity() * Real(weight(i, k, carriers, others));
-    j.template bottomRows<3>() = (frame.turning * cross * frame.rotation.transpose()).template cast<Real>();
+    j.template bottomRows<3>() =
+        (frame.turning * cross_matrix(g) * frame.rotation.transpose()).template cast<Real>();
     return j;
   }
 };

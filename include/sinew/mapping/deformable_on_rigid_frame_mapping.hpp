@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/core/ends.hpp>
 #include <sinew/core/lists.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
@@ -246,7 +247,7 @@ struct DeformableOnRigidFrameMapping {
     Vec<Real, N> const& f = forces[i];
     Mat<Real, N, angular> cross;
     if constexpr (N == 3)
-      cross << 0, -f[2], f[1], f[2], 0, -f[0], -f[1], f[0], 0;
+      cross = cross_matrix(f);
     else
       cross << f[1], -f[0];
     return rotation(i).transpose() * cross;

@@ -103,7 +103,7 @@ struct DistanceFromTargetMapping {
     measures.all.clear();
     for (std::size_t k = 0; k < n; ++k)
       measures.all.push_back({{Index(indices[k])}, {In::center(targetPositions[k]), Real(restLengths[k])}});
-    measures.place(positions, where, "targets");
+    place_child(positions, measures.all.size(), where, "targets");
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }

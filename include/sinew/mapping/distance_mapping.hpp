@@ -2,8 +2,9 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
-#include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/child_points.hpp>
 #include <sinew/mapping/measured_elements.hpp>
+#include <sinew/mapping/stretch.hpp>
 #include <sinew/topology/adjacency.hpp>
 #include <sinew/topology/element_checks.hpp>
 
@@ -50,67 +51,44 @@ struct DistanceMapping {
 
   struct Link {
     Edge ends;
-    Real length;             // L
-    Vec<Real, N> direction;  // u, or zero
-    Real inverse;            // 1/l, or zero
-    Real tension;            // f/l, at the last updateK
+    Stretch<Real, N> stretch;
   };
   std::vector<Link> links{};
 
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<DistanceMapping>());
     const std::vector<Edge> edges = detail::measured_elements(parent, child, where, "edge", "edges", edgesOf);
-    if (!restLengths.empty() && restLengths.size() != edges.size())
-      throw Error(where,
-                  text("restLengths has ",
-                       restLengths.size(),
-                       " entries for ",
-                       edges.size(),
-                       " edges; give one for each edge, or none"));
+    check_rest_lengths(where, *this, edges.size());
     links.clear();
     for (std::size_t e = 0; e < edges.size(); ++e) {
       auto const [a, b] = edges[e];
-      Real length =
+      const Real apart =
           (In::center(parent.rest[std::size_t(b)]) - In::center(parent.rest[std::size_t(a)])).norm();
-      if (!restLengths.empty())
-        length = Real(restLengths[e]);
-      else if (computeDistance)
-        length = 0;
-      links.push_back({edges[e], length, Vec<Real, N>::Zero(), 0, 0});
+      links.push_back({edges[e], {rest_length(*this, e, apart)}});
     }
-    if (positions.empty()) positions.resize(links.size());
-    if (positions.size() != links.size())
-      throw Error(where,
-                  text("the child has ",
-                       positions.size(),
-                       " points for ",
-                       links.size(),
-                       " edges; give the child as many, or none"));
+    place_child(positions, links.size(), where, "edges");
   }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t e = 0; e < links.size(); ++e) {
       Link& link = links[e];
-      const Vec<Real, N> d = In::center(in[end(link, 1)]) - In::center(in[end(link, 0)]);
-      const Real length = d.norm();
-      link.inverse =
-          length > link.length * Real(1e-9) + std::numeric_limits<Real>::min() ? Real(1) / length : Real(0);
-      link.direction = d * link.inverse;
-      out[e][0] = typename Out::Real(length - link.length);
+      out[e][0] =
+          typename Out::Real(link.stretch.of(In::center(in[end(link, 1)]) - In::center(in[end(link, 0)])));
     }
   }
   void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
     for (std::size_t e = 0; e < links.size(); ++e)
-      out[e][0] = typename Out::Real(links[e].direction.dot(difference(links[e], in)));
+      out[e][0] = typename Out::Real(links[e].stretch.direction.dot(difference(links[e], in)));
   }
   void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    for (std::size_t e = 0; e < links.size(); ++e) spread(links[e], in, links[e].direction * Real(out[e][0]));
+    for (std::size_t e = 0; e < links.size(); ++e)
+      spread(links[e], in, links[e].stretch.direction * Real(out[e][0]));
   }
   template <class F>
   void forEachJacobianBlock(int point, F&& f) const {
     Link const& link = links[std::size_t(point)];
     Mat<typename Out::Real, 1, In::size> j = Mat<typename Out::Real, 1, In::size>::Zero();
-    j.template head<N>() = -link.direction.transpose().template cast<typename Out::Real>();
+    j.template head<N>() = -link.stretch.direction.transpose().template cast<typename Out::Real>();
     f(link.ends[0], j);
     f(link.ends[1], Mat<typename Out::Real, 1, In::size>(-j));
   }
@@ -140,28 +118,19 @@ struct DistanceMapping {
   }
 
   void updateK(typename Out::VecDeriv const& f) {
-    for (std::size_t e = 0; e < links.size(); ++e) {
-      const Real force = Real(f[e][0]);
-      const bool counts = geometricStiffness == GeometricStiffness::exact ||
-                          (geometricStiffness == GeometricStiffness::stabilized && force < 0);
-      links[e].tension = counts ? force * links[e].inverse : Real(0);
-    }
+    for (std::size_t e = 0; e < links.size(); ++e)
+      links[e].stretch.updateK(Real(f[e][0]), geometricStiffness);
   }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
     if (geometricStiffness == GeometricStiffness::none) return;
-    for (Link const& link : links) {
-      const Vec<Real, N> d = difference(link, dx);
-      spread(link, df, (Real(k) * link.tension) * (d - link.direction * link.direction.dot(d)));
-    }
+    for (Link const& link : links) spread(link, df, link.stretch.pull(difference(link, dx), Real(k)));
   }
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
     if (geometricStiffness == GeometricStiffness::none) return;
     for (Link const& link : links) {
       Mat<Real, In::size> block = Mat<Real, In::size>::Zero();
-      block.template topLeftCorner<N, N>() =
-          (Real(p.k) * link.tension) *
-          (Mat<Real, N>::Identity() - link.direction * link.direction.transpose());
+      block.template topLeftCorner<N, N>() = link.stretch.stiffness(Real(p.k));
       const auto [a, b] = link.ends;
       sink.add(a, a, block), sink.add(b, b, block);
       block = -block;

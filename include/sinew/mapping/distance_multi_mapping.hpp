@@ -3,10 +3,11 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/ends.hpp>
-#include <sinew/mapping/geometric_stiffness.hpp>
+#include <sinew/mapping/child_points.hpp>
+#include <sinew/mapping/index_pairs.hpp>
+#include <sinew/mapping/stretch.hpp>
 
 #include <array>
-#include <limits>
 #include <vector>
 
 namespace sinew {
@@ -63,10 +64,7 @@ struct DistanceMultiMapping {
 
   struct Link {
     std::array<std::size_t, 2> ends;  // entries of indexPairs
-    Real length;                      // L
-    Vec<Real, N> direction;           // u, or zero
-    Real inverse;                     // 1/l, or zero
-    Real tension;                     // f/l, at the last updateK
+    Stretch<Real, N> stretch;
   };
   std::vector<Link> links{};
   typename In::template Array<Vec<Real, N>> places{}, motions{};  // of each entry: x, and dx
@@ -85,13 +83,14 @@ struct DistanceMultiMapping {
     }
     void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
       forEachLink([&](std::size_t e, int sign, std::size_t point, bool first) {
-        const auto rate = typename Out::Real(Real(sign) * of.links[e].direction.dot(linear(in[point])));
+        const auto rate =
+            typename Out::Real(Real(sign) * of.links[e].stretch.direction.dot(linear(in[point])));
         out[e][0] = (first ? 0 : out[e][0]) + rate;
       });
     }
     void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
       forEachLink([&](std::size_t e, int sign, std::size_t point, bool) {
-        in[point].template head<N>() += of.links[e].direction * (Real(sign) * Real(out[e][0]));
+        in[point].template head<N>() += of.links[e].stretch.direction * (Real(sign) * Real(out[e][0]));
       });
     }
     template <class F>
@@ -100,19 +99,15 @@ struct DistanceMultiMapping {
       for (const int side : {0, 1})
         if (isMine(link.ends[std::size_t(side)])) {
           Mat<typename Out::Real, 1, In::size> j = Mat<typename Out::Real, 1, In::size>::Zero();
-          j.template head<N>() =
-              (Real(side == 0 ? -1 : 1) * link.direction.transpose()).template cast<typename Out::Real>();
+          j.template head<N>() = (Real(side == 0 ? -1 : 1) * link.stretch.direction.transpose())
+                                     .template cast<typename Out::Real>();
           f(of.indexPairs[link.ends[std::size_t(side)]][1], j);
         }
     }
     void updateK(typename Out::VecDeriv const& f) const {
       if (!isLast()) return;
-      for (std::size_t e = 0; e < of.links.size(); ++e) {
-        const Real force = Real(f[e][0]);
-        const bool counts = of.geometricStiffness == GeometricStiffness::exact ||
-                            (of.geometricStiffness == GeometricStiffness::stabilized && force < 0);
-        of.links[e].tension = counts ? force * of.links[e].inverse : Real(0);
-      }
+      for (std::size_t e = 0; e < of.links.size(); ++e)
+        of.links[e].stretch.updateK(Real(f[e][0]), of.geometricStiffness);
     }
     void gather(typename In::VecDeriv const& dx) const {
       if (of.geometricStiffness == GeometricStiffness::none) return;
@@ -123,8 +118,7 @@ struct DistanceMultiMapping {
       forEachLink([&](std::size_t e, int sign, std::size_t point, bool) {
         Link const& link = of.links[e];
         const Vec<Real, N> d = of.motions[link.ends[1]] - of.motions[link.ends[0]];
-        df[point].template head<N>() +=
-            (Real(sign) * Real(k) * link.tension) * (d - link.direction * link.direction.dot(d));
+        df[point].template head<N>() += link.stretch.pull(d, Real(sign) * Real(k));
       });
     }
     /// All stay, or `follow` says that they do not.
@@ -164,41 +158,13 @@ struct DistanceMultiMapping {
             typename Out::VecCoord& positions) {
     where = text(child.where, ": ", component_name<DistanceMultiMapping>());
     parentCount = above.size();
-    for (std::size_t i = 0; i < indexPairs.size(); ++i) {
-      const auto [parent, point] = indexPairs[i];
-      if (std::size_t(parent) >= above.size())
-        throw Error(where,
-                    text("indexPairs[",
-                         i,
-                         "] names parent ",
-                         parent,
-                         ", but there are ",
-                         above.size(),
-                         ", numbered from 0; correct the index"));
-      if (std::size_t(point) >= above[std::size_t(parent)].rest.size())
-        throw Error(where,
-                    text("indexPairs[",
-                         i,
-                         "] names point ",
-                         point,
-                         " of ",
-                         above[std::size_t(parent)].where,
-                         ", which has ",
-                         above[std::size_t(parent)].rest.size(),
-                         " points, numbered from 0; correct the index"));
-    }
+    check_index_pairs(where, indexPairs, above);
     auto const& edges = child.topology.edges;
     if (edges.empty())
       throw Error(
           where,
           "there are no edges between the points of indexPairs; add a topology with edges to its node");
-    if (!restLengths.empty() && restLengths.size() != edges.size())
-      throw Error(where,
-                  text("restLengths has ",
-                       restLengths.size(),
-                       " entries for ",
-                       edges.size(),
-                       " edges; give one for each edge, or none"));
+    check_rest_lengths(where, *this, edges.size());
     auto restOf = [&](std::size_t entry) -> Vec<Real, N> {
       const auto [parent, point] = indexPairs[entry];
       return In::center(above[std::size_t(parent)].rest[std::size_t(point)]);
@@ -216,33 +182,19 @@ struct DistanceMultiMapping {
                            indexPairs.size(),
                            " entries, numbered from 0; give an entry for each end of an edge"));
       const std::array<std::size_t, 2> ends{std::size_t(edges[e][0]), std::size_t(edges[e][1])};
-      Real length = (restOf(ends[1]) - restOf(ends[0])).norm();
-      if (!restLengths.empty())
-        length = Real(restLengths[e]);
-      else if (computeDistance)
-        length = 0;
-      links.push_back({ends, length, Vec<Real, N>::Zero(), 0, 0});
+      links.push_back({ends, {rest_length(*this, e, (restOf(ends[1]) - restOf(ends[0])).norm())}});
     }
     places.assign(indexPairs.size(), Vec<Real, N>::Zero());
     motions.assign(indexPairs.size(), Vec<Real, N>::Zero());
-    if (positions.empty()) positions.resize(links.size());
-    if (positions.size() != links.size())
-      throw Error(where,
-                  text("the child has ",
-                       positions.size(),
-                       " points for ",
-                       links.size(),
-                       " edges; give the child as many, or none"));
+    place_child(positions, links.size(), where, "edges");
   }
 
   template <class Sink>
   void addToMatrix(MechanicalParams const& p, std::size_t a, std::size_t b, Sink const& sink) const {
     if (geometricStiffness == GeometricStiffness::none) return;
     for (Link const& link : links) {
-      const Vec<Real, N> u = link.direction;
       Mat<Real, In::size> block = Mat<Real, In::size>::Zero();
-      block.template topLeftCorner<N, N>() =
-          (Real(p.k) * link.tension) * (Mat<Real, N>::Identity() - u * u.transpose());
+      block.template topLeftCorner<N, N>() = link.stretch.stiffness(Real(p.k));
       for (std::size_t i = 0; i < 2; ++i)
         for (std::size_t j = 0; j < 2; ++j) {
           auto const &row = indexPairs[link.ends[i]], &column = indexPairs[link.ends[j]];
@@ -270,12 +222,7 @@ struct DistanceMultiMapping {
   }
 
   typename Out::Real measure(Link& link) const {
-    const Vec<Real, N> d = places[link.ends[1]] - places[link.ends[0]];
-    const Real length = d.norm();
-    link.inverse =
-        length > link.length * Real(1e-9) + std::numeric_limits<Real>::min() ? Real(1) / length : Real(0);
-    link.direction = d * link.inverse;
-    return typename Out::Real(length - link.length);
+    return typename Out::Real(link.stretch.of(places[link.ends[1]] - places[link.ends[0]]));
   }
 };
 

@@ -45,7 +45,7 @@ struct DistanceToPlaneMapping {
     const Measure plane{planeNormal.normalized().template cast<Real>(), planePoint.template cast<Real>()};
     measures.all.clear();
     for (std::size_t i = 0; i < parent.rest.size(); ++i) measures.all.push_back({{Index(i)}, plane});
-    measures.place(positions, where, "points of the parent");
+    place_child(positions, measures.all.size(), where, "points of the parent");
   }
 
   std::vector<bool> pointsThatStay(Renumbering const& parent) const { return parent.stays(); }

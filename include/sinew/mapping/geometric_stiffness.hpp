@@ -23,6 +23,12 @@ inline constexpr std::array<std::array<std::string_view, 2>, 6> enum_aliases(Geo
            {"Stabilized", "stabilized"}}};
 }
 
+/// Whether that is added for what has the force f on it; what pushes has f > 0.
+template <class Real>
+constexpr bool adds_stiffness(GeometricStiffness which, Real f) {
+  return which == GeometricStiffness::exact || (which == GeometricStiffness::stabilized && f < 0);
+}
+
 /// Of rigid bodies K_g is not symmetric, since rotations do not commute: nothing, or its symmetric part.
 enum class RotationalStiffness { none, symmetrized };
 inline constexpr std::array<std::string_view, 2> enum_names(RotationalStiffness) {

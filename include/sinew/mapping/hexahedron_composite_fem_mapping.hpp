@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/force/composite_cells.hpp>
 #include <sinew/topology/element_checks.hpp>
 #include <sinew/topology/point_location.hpp>
@@ -197,10 +198,10 @@ struct HexahedronCompositeFEMMapping {
           const Eigen::Vector3d arm = x[k] - x[0];
           inFrame += part.weights[k] * (r.transpose() * arm - e.corner[k]);
           moving[k] = r * part.weights[k] * r.transpose();
-          turning += moving[k] * cross(arm);
+          turning += moving[k] * cross_matrix(arm);
         }
         const Eigen::Vector3d arm = r * inFrame;
-        turning -= cross(arm);
+        turning -= cross_matrix(arm);
         sum += part.share * x[0] + arm;
         for (std::size_t k = 0; k < 8; ++k)
           part.jacobian[k] =
@@ -232,12 +233,6 @@ struct HexahedronCompositeFEMMapping {
   }
 
  private:
-  static Eigen::Matrix3d cross(Eigen::Vector3d const& a) {
-    Eigen::Matrix3d m;
-    m << 0, -a[2], a[1], a[2], 0, -a[0], -a[1], a[0], 0;
-    return m;
-  }
-
   // what a hexahedron says of a corner, as a share of the point that was begun last
   void add(int hexahedron, double share, Eigen::Matrix<double, 3, 24> const& weights,
            Eigen::Vector3d const& corner, std::vector<Eigen::Vector3d> const& points) {

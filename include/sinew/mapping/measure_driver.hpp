@@ -2,12 +2,11 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/mapping/child_points.hpp>
 #include <sinew/mapping/geometric_stiffness.hpp>
 
 #include <array>
 #include <cstddef>
-#include <string>
-#include <string_view>
 #include <vector>
 
 namespace sinew {
@@ -28,21 +27,6 @@ struct MeasureDriver {
     Real force{0};  // at the last updateK
   };
   std::vector<One> all{};
-
-  /// Makes room in the child, which has no point or as many as there are measures. Throws Error elsewhere;
-  /// `what` names that of which there is one for each measure.
-  void place(typename Out::VecCoord& child, std::string const& where, std::string_view what) const {
-    if (child.empty()) child.resize(all.size());
-    if (child.size() != all.size())
-      throw Error(where,
-                  text("the child has ",
-                       child.size(),
-                       " points for ",
-                       all.size(),
-                       ' ',
-                       what,
-                       "; give the child as many, or none"));
-  }
 
   void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) {
     for (std::size_t e = 0; e < all.size(); ++e) {
@@ -75,9 +59,7 @@ struct MeasureDriver {
   void updateK(typename Out::VecDeriv const& f, GeometricStiffness which) {
     for (std::size_t e = 0; e < all.size(); ++e) {
       const Real force = Real(f[e][0]);
-      const bool counts =
-          which == GeometricStiffness::exact || (which == GeometricStiffness::stabilized && force < 0);
-      all[e].force = counts ? force : Real(0);
+      all[e].force = adds_stiffness(which, force) ? force : Real(0);
     }
   }
   void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/component.hpp>
+#include <sinew/core/cross_matrix.hpp>
 #include <sinew/core/follow.hpp>
 
 #include <algorithm>
@@ -222,10 +223,6 @@ struct SkinningMapping {
     starts.push_back(influences.size());
   }
 
-  static Mat<Real, 3> cross(Vec<Real, 3> const& v) {
-    return (Mat<Real, 3>() << 0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0).finished();
-  }
-
   Vec<Real, 3> blendLinear(std::size_t point, typename In::VecCoord const& in) {
     Vec<Real, 3> x = Vec<Real, 3>::Zero();
     for (std::size_t k = starts[point]; k < starts[point + 1]; ++k) {
@@ -234,7 +231,7 @@ struct SkinningMapping {
       const Vec<Real, 3> arm = frame.orientation * one.arm;
       x += one.weight * (frame.center + arm);
       one.jacobian.template leftCols<3>() = one.weight * Mat<Real, 3>::Identity();
-      one.jacobian.template rightCols<3>() = -one.weight * cross(arm);
+      one.jacobian.template rightCols<3>() = -one.weight * cross_matrix(arm);
     }
     return x;
   }
@@ -245,7 +242,8 @@ struct SkinningMapping {
   static Mat<Real, 4> right(Four const& q) { return product(q, Real(-1)); }
   static Mat<Real, 4> product(Four const& p, Real sign) {
     Mat<Real, 4> m;
-    m.template topLeftCorner<3, 3>() = p[3] * Mat<Real, 3>::Identity() + sign * cross(p.template head<3>());
+    m.template topLeftCorner<3, 3>() =
+        p[3] * Mat<Real, 3>::Identity() + sign * cross_matrix(Vec<Real, 3>(p.template head<3>()));
     m.template topRightCorner<3, 1>() = p.template head<3>();
     m.template bottomLeftCorner<1, 3>() = -p.template head<3>().transpose();
     m(3, 3) = p[3];
@@ -296,7 +294,7 @@ struct SkinningMapping {
       const Motion m = motion(one, in, pivot);
       // dq = w q / 2, dt = v - w x rotated, d(t q / 2) = dt q / 2 + t dq / 2
       const Mat<Real, 4, 3> half = right(m.q).template leftCols<3>() / 2;
-      const Mat<Real, 4, 3> dual = half * cross(m.rotated) + left(m.shift) * half / 2;
+      const Mat<Real, 4, 3> dual = half * cross_matrix(m.rotated) + left(m.shift) * half / 2;
       one.jacobian.template leftCols<3>() = one.weight * (byDual * half);
       one.jacobian.template rightCols<3>() = one.weight * (byReal * half + byDual * dual);
     }

@@ -48,8 +48,10 @@ struct SquareMapping {
   void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
     measures.all.clear();
     for (std::size_t i = 0; i < parent.rest.size(); ++i) measures.all.push_back({{Index(i)}, {}});
-    measures.place(
-        positions, text(child.where, ": ", component_name<SquareMapping>()), "points of the parent");
+    place_child(positions,
+                measures.all.size(),
+                text(child.where, ": ", component_name<SquareMapping>()),
+                "points of the parent");
   }
 
   std::vector<bool> pointsThatStay(Renumbering const& parent) const { return parent.stays(); }

@@ -3,6 +3,7 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/lists.hpp>
+#include <sinew/mapping/child_points.hpp>
 #include <sinew/mapping/mapped_loops.hpp>
 
 #include <vector>
@@ -46,14 +47,7 @@ struct SubsetMapping {
     if (indices.empty())
       for (auto const& x : positions) indices.push_back(nearest(where, parent.rest, x));
     check_numbers(where, "indices", indices, parent.rest.size(), "points", "the parent");
-    if (positions.empty()) positions.resize(indices.size());
-    if (positions.size() != indices.size())
-      throw Error(where,
-                  text("the child has ",
-                       positions.size(),
-                       " points for ",
-                       indices.size(),
-                       " indices; give the child as many, or none"));
+    place_child(positions, indices.size(), where, "indices");
     loops.init(parent.rest.size(), indices);
   }
 

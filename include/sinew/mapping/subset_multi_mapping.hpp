@@ -3,6 +3,8 @@
 
 #include <sinew/core/component.hpp>
 #include <sinew/core/ends.hpp>
+#include <sinew/mapping/child_points.hpp>
+#include <sinew/mapping/index_pairs.hpp>
 #include <sinew/mapping/point_copy.hpp>
 
 #include <array>
@@ -81,39 +83,11 @@ struct SubsetMultiMapping {
   void init(std::vector<InitContext<In>> const& above, InitContext<Out> const& child,
             typename Out::VecCoord& positions) {
     const std::string where = text(child.where, ": ", component_name<SubsetMultiMapping>());
+    check_index_pairs(where, indexPairs, above);
     parts.assign(above.size(), {std::vector<int>(indexPairs.size(), -1)});
-    for (std::size_t i = 0; i < indexPairs.size(); ++i) {
-      const auto [parent, point] = indexPairs[i];
-      if (std::size_t(parent) >= above.size())
-        throw Error(where,
-                    text("indexPairs[",
-                         i,
-                         "] names parent ",
-                         parent,
-                         ", but there are ",
-                         above.size(),
-                         ", numbered from 0; correct the index"));
-      if (std::size_t(point) >= above[std::size_t(parent)].rest.size())
-        throw Error(where,
-                    text("indexPairs[",
-                         i,
-                         "] names point ",
-                         point,
-                         " of ",
-                         above[std::size_t(parent)].where,
-                         ", which has ",
-                         above[std::size_t(parent)].rest.size(),
-                         " points, numbered from 0; correct the index"));
-      parts[std::size_t(parent)].points[i] = point;
-    }
-    if (positions.empty()) positions.resize(indexPairs.size());
-    if (positions.size() != indexPairs.size())
-      throw Error(where,
-                  text("the child has ",
-                       positions.size(),
-                       " points for ",
-                       indexPairs.size(),
-                       " indexPairs; give the child as many, or none"));
+    for (std::size_t i = 0; i < indexPairs.size(); ++i)
+      parts[std::size_t(indexPairs[i][0])].points[i] = indexPairs[i][1];
+    place_child(positions, indexPairs.size(), where, "indexPairs");
   }
 };
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #pragma once
 
-#include <sinew/mapping/measure_driver.hpp>
-#include <sinew/mapping/measured_elements.hpp>
+#include <sinew/core/cross_matrix.hpp>
+#include <sinew/mapping/element_measure_mapping.hpp>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -12,33 +12,17 @@
 
 namespace sinew {
 
-/// Each point of the child is the volume of a tetrahedron of the parent, negative where it is inside out:
-///   V = e1 . (e2 x e3) / 6,  ek = xk - x0       dV/dxk = ak  with  6 a1 = e2 x e3, ..., a0 = -a1 - a2 - a3
-///   K_g = f d2V/dx2                              with f the force on V
-/// where 6 d2V/dx1 dx2 v = -e3 x v and so on cyclically, and blocks on the diagonal are zero. The tetrahedra
-/// are those of the topology in the node of the mapping, or else of the parent's. `stabilized` has K_g, as
-/// SOFA, for tetrahedra that are pulled together (f < 0) only; d2V/dx2 has both signs anyway.
-template <class I, class O>
-struct VolumeMapping {
-  using Role = role::Mapping;
-  using In = I;
-  using Out = O;
-  using Real = typename In::Real;
-  static_assert(!In::rigid && In::size == 3 && !Out::rigid && Out::size == 1,
-                "VolumeMapping maps Vec3 to Vec1");
-  static constexpr std::string_view className = "VolumeMapping";
-  static constexpr bool overParent = true;
+struct TetrahedronVolumes {
+  static constexpr std::string_view className = "VolumeMapping", noun = "tetrahedron", plural = "tetrahedra",
+                                    stiffnessWords =
+                                        "geometric stiffness: what rotating faces add to the stiffness";
+  static constexpr auto elements = &TopologyView::tetrahedra;
+  static constexpr ElementKind element = ElementKind::tetrahedron;
 
-  GeometricStiffness geometricStiffness = GeometricStiffness::stabilized;
-
-  static constexpr auto fields() {
-    return field_list(field("geometricStiffness",
-                            &VolumeMapping::geometricStiffness,
-                            "",
-                            "geometric stiffness: what rotating faces add to the stiffness"));
-  }
-
+  template <class In>
   struct Measure {
+    static_assert(!In::rigid && In::size == 3, "VolumeMapping maps Vec3 to Vec1");
+    using Real = typename In::Real;
     static constexpr int arity = 4;
     std::array<Vec<Real, 3>, 4> edge{}, area{};  // xk - x0, dV/dxk
 
@@ -54,51 +38,24 @@ struct VolumeMapping {
     // [e]x / 6, e from the one to the other of the two points that are left, in the order that makes (i, j,
     // from, to) an odd permutation
     Mat<Real, 3> second(int i, int j) const {
-      Mat<Real, 3> m = Mat<Real, 3>::Zero();
-      if (i == j) return m;
+      if (i == j) return Mat<Real, 3>::Zero();
       std::array<int, 2> left{};
       for (int k = 0, n = 0; k < 4; ++k)
         if (k != i && k != j) left[std::size_t(n++)] = k;
       const bool odd = (i > j) != ((std::max(i, j) - std::min(i, j)) % 2 == 0);
-      const Vec<Real, 3> e = (edge[std::size_t(left[1])] - edge[std::size_t(left[0])]) / Real(odd ? 6 : -6);
-      m << 0, -e[2], e[1], e[2], 0, -e[0], -e[1], e[0], 0;
-      return m;
+      return cross_matrix(
+          Vec<Real, 3>((edge[std::size_t(left[1])] - edge[std::size_t(left[0])]) / Real(odd ? 6 : -6)));
     }
   };
-  MeasureDriver<In, Out, Measure> measures{};
-
-  void init(InitContext<In> const& parent, InitContext<Out> const& child, typename Out::VecCoord& positions) {
-    const std::string where = text(child.where, ": ", component_name<VolumeMapping>());
-    measures.all.clear();
-    for (Tetrahedron const& t : detail::measured_elements(
-             parent, child, where, "tetrahedron", "tetrahedra", &TopologyView::tetrahedra))
-      measures.all.push_back({t, {}});
-    measures.place(positions, where, "tetrahedra");
-  }
-
-  std::vector<bool> pointsThatStay(TopologyView const&, TopologyChange const& change) const {
-    return change.of(ElementKind::tetrahedron).stays();
-  }
-
-  void apply(typename Out::VecCoord& out, typename In::VecCoord const& in) { measures.apply(out, in); }
-  void applyJ(typename Out::VecDeriv& out, typename In::VecDeriv const& in) const {
-    measures.applyJ(out, in);
-  }
-  void applyJT(typename In::VecDeriv& in, typename Out::VecDeriv const& out) const {
-    measures.applyJT(in, out);
-  }
-  template <class F>
-  void forEachJacobianBlock(int point, F&& f) const {
-    measures.forEachJacobianBlock(point, f);
-  }
-  void updateK(typename Out::VecDeriv const& f) { measures.updateK(f, geometricStiffness); }
-  void addKx(typename In::VecDeriv& df, typename In::VecDeriv const& dx, double k) const {
-    if (geometricStiffness != GeometricStiffness::none) measures.addKx(df, dx, k);
-  }
-  template <class Sink>
-  void addToMatrix(MechanicalParams const& p, Sink const& sink) const {
-    if (geometricStiffness != GeometricStiffness::none) measures.addToMatrix(p, sink);
-  }
 };
+
+/// Each point of the child is the volume of a tetrahedron of the parent, negative where it is inside out:
+///   V = e1 . (e2 x e3) / 6,  ek = xk - x0       dV/dxk = ak  with  6 a1 = e2 x e3, ..., a0 = -a1 - a2 - a3
+///   K_g = f d2V/dx2                              with f the force on V
+/// where 6 d2V/dx1 dx2 v = -e3 x v and so on cyclically, and blocks on the diagonal are zero. The tetrahedra
+/// are those of the topology in the node of the mapping, or else of the parent's. `stabilized` has K_g, as
+/// SOFA, for tetrahedra that are pulled together (f < 0) only; d2V/dx2 has both signs anyway.
+template <class I, class O>
+using VolumeMapping = ElementMeasureMapping<I, O, TetrahedronVolumes>;
 
 }  // namespace sinew

@@ -148,31 +148,16 @@ class Communicator {
   template <class T>
   std::vector<T> gather(std::vector<T> const& own, std::vector<std::size_t> const& counts,
                         std::string_view what) {
-    auto& b = *buffers_;
-    b.counts.clear(), b.starts.clear();
-    int end = 0;
-    for (const std::size_t n : counts) {
-      b.starts.push_back(end);
-      b.counts.push_back(int(n * sizeof(T)));
-      end += b.counts.back();
-    }
-    const auto bytes = reinterpret_cast<std::byte const*>(own.data());
-    b.own.assign(bytes, bytes + b.counts[std::size_t(rank_)]);
-    b.all.resize(std::size_t(end));
-    MPI_Request request = MPI_REQUEST_NULL;
-    MPI_Iallgatherv(b.own.data(),
-                    int(b.own.size()),
-                    MPI_BYTE,
-                    b.all.data(),
-                    b.counts.data(),
-                    b.starts.data(),
-                    MPI_BYTE,
-                    comm_,
-                    &request);
-    wait({&request, 1}, what);
-    std::vector<T> values(std::size_t(end) / sizeof(T));
-    std::memcpy(static_cast<void*>(values.data()), b.all.data(), b.all.size());
+    std::vector<T> values;
+    gather(
+        own, [&](std::size_t r) { return counts[r]; }, values, what);
     return values;
+  }
+  /// The same of as many of each, into a list that is made long enough.
+  template <class T>
+  void gatherAlike(std::vector<T> const& own, std::vector<T>& values, std::string_view what) {
+    gather(
+        own, [&](std::size_t) { return own.size(); }, values, what);
   }
 
   /// What all ranks do together: f() on each. Where it throws on some, it ends on all, wherever they wait,
@@ -230,6 +215,35 @@ class Communicator {
     std::vector<MPI_Request> sent{}, come{};
   };
   std::unique_ptr<Buffers> buffers_ = std::make_unique<Buffers>();
+
+  // counts(rank) values of each rank
+  template <class T, class Counts>
+  void gather(std::vector<T> const& own, Counts&& counts, std::vector<T>& values, std::string_view what) {
+    auto& b = *buffers_;
+    b.counts.clear(), b.starts.clear();
+    int end = 0;
+    for (std::size_t r = 0; r < std::size_t(size_); ++r) {
+      b.starts.push_back(end);
+      b.counts.push_back(int(counts(r) * sizeof(T)));
+      end += b.counts.back();
+    }
+    const auto bytes = reinterpret_cast<std::byte const*>(own.data());
+    b.own.assign(bytes, bytes + b.counts[std::size_t(rank_)]);
+    b.all.resize(std::size_t(end));
+    MPI_Request request = MPI_REQUEST_NULL;
+    MPI_Iallgatherv(b.own.data(),
+                    int(b.own.size()),
+                    MPI_BYTE,
+                    b.all.data(),
+                    b.counts.data(),
+                    b.starts.data(),
+                    MPI_BYTE,
+                    comm_,
+                    &request);
+    wait({&request, 1}, what);
+    values.resize(std::size_t(end) / sizeof(T));
+    std::memcpy(static_cast<void*>(values.data()), b.all.data(), b.all.size());
+  }
 
   template <class Done>
   void poll(std::string_view what, Done&& done) {

@@ -35,7 +35,8 @@ struct Halo {
   std::vector<Neighbour> neighbours{};
 
   Halo() = default;
-  explicit Halo(Part&& part, int rank)
+  /// `bytes`: the most that is sent of a point at once.
+  explicit Halo(Part&& part, int rank, std::size_t bytes)
       : parts(std::move(part.parts)),
         numbers(part.points.kept),
         ownedBy(std::move(part.ownedBy)),
@@ -44,7 +45,9 @@ struct Halo {
     std::size_t first = ownedBy[std::size_t(rank)];
     for (auto& [other, sent] : part.sent) {
       const auto ghosts = std::size_t(std::count(ghostOwner.begin(), ghostOwner.end(), other));
-      neighbours.push_back({other, std::move(sent), first, ghosts});
+      auto& n = neighbours.emplace_back(Neighbour{other, std::move(sent), first, ghosts});
+      n.out.resize(bytes * n.sent.size());
+      n.in.resize(bytes * ghosts);
       first += ghosts;
     }
   }
@@ -57,16 +60,29 @@ struct Halos {
 
   Halos() = default;
   Halos(Halos&&) = default;
-  Halos(Halos const& o) : all(o.all) {}
+  Halos(Halos const& o) : all(o.all) { reserve(); }
   Halos& operator=(Halos&&) = default;
   Halos& operator=(Halos const& o) {
     all = o.all;
+    reserve();
     return *this;
+  }
+  void add(Halo halo) {
+    all.push_back(std::move(halo));
+    reserve();
   }
   /// Where an error has ended the wait for them, they may still come.
   ~Halos() {
     auto pending = [](MPI_Request const& request) { return request != MPI_REQUEST_NULL; };
     if (std::any_of(messages.begin(), messages.end(), pending)) keep(std::move(all));
+  }
+
+ private:
+  // one to each neighbour, and one from it
+  void reserve() {
+    std::size_t most = 0;
+    for (Halo const& halo : all) most += 2 * halo.neighbours.size();
+    messages.reserve(most);
   }
 };
 
@@ -90,7 +106,7 @@ class Distribution {
   bool active() const { return !halos_.all.empty(); }
   Halo const& halo(int number) const { return halos_.all[std::size_t(number)]; }
   void add(Halo halo, bool mapped) {
-    halos_.all.push_back(std::move(halo));
+    halos_.add(std::move(halo));
     hasMapped_ = hasMapped_ || mapped;
   }
   /// Whether a state follows another that is shared out.
@@ -109,16 +125,16 @@ class Distribution {
     vectors.forEachIndependent([&](auto& s) {
       for (Halo::Neighbour& n : halos_.all[std::size_t(s.halo)].neighbours) {
         const std::size_t bytes = (sizeof(s[ids][0]) + ...);
-        n.out.resize(bytes * n.sent.size());
-        n.in.resize(bytes * n.ghosts);
+        const std::size_t out = bytes * n.sent.size(), in = bytes * n.ghosts;
+        if (n.out.size() < out) n.out.resize(out);
+        if (n.in.size() < in) n.in.resize(in);
         std::byte* to = n.out.data();
         (pack(to, s[ids], n.sent), ...);
-        if (n.ghosts > 0)
-          halos_.messages.push_back(ranks_->receive(n.rank, n.in.data(), n.in.size(), s.halo));
+        if (n.ghosts > 0) halos_.messages.push_back(ranks_->receive(n.rank, n.in.data(), in, s.halo));
         if (n.sent.empty()) continue;
-        halos_.messages.push_back(ranks_->send(n.rank, n.out.data(), n.out.size(), s.halo));
+        halos_.messages.push_back(ranks_->send(n.rank, n.out.data(), out, s.halo));
         ++traffic_.messages;
-        traffic_.bytes += n.out.size();
+        traffic_.bytes += out;
       }
     });
   }

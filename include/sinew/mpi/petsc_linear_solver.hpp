@@ -30,7 +30,8 @@ namespace sinew {
 /// rigid motions of their parts as a coarse level (RankMultigrid); with the matrix "free" there is none, and
 /// products go through the scene. The near null space of the matrix, which multigrid by aggregation (gamg)
 /// asks for, is the rigid motions of points in space. Throws Error at names and options that PETSc does not
-/// know, and where a solve does not converge. PETSc allocates in a solve.
+/// know, and where a solve does not converge. What is Sinew's allocates at init only; PETSc makes its own
+/// multigrids, and what its methods need of vectors, in solves.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct PetscLinearSolver {
   using Role = role::LinearSolver;
@@ -122,6 +123,7 @@ struct PetscLinearSolver {
       layout.begin = 0;
     }
     make(ranks, operations);
+    prepare(operations);
   }
 
   template <class Operations>
@@ -216,6 +218,33 @@ struct PetscLinearSolver {
       makeMatrix(ranks, operations);
     makeMethod(ranks);
     if (ownMultigrid()) multigrid.init(operations, local, layout);
+  }
+  // What can be made before there is a matrix of a step: multigrid from the stiffness as it is now, and what
+  // PETSc keeps of the pattern, from ones on the diagonal. Its own multigrids are made anew in each solve.
+  template <class Operations>
+  void prepare(Operations& operations) {
+    if (ownMultigrid())
+      operations.withMatrixAtInit(
+          local, {.m = 1, .k = -1e4}, [&] { multigrid.update(operations, local, layout, vec_id::dx); });
+    constexpr std::array<std::string_view, 12> keep{"multigrid",
+                                                    "none",
+                                                    "jacobi",
+                                                    "pbjacobi",
+                                                    "bjacobi",
+                                                    "asm",
+                                                    "sor",
+                                                    "eisenstat",
+                                                    "ilu",
+                                                    "icc",
+                                                    "lu",
+                                                    "cholesky"};
+    if (matrixFree() || std::find(keep.begin(), keep.end(), preconditioner) == keep.end()) return;
+    local.setZero();
+    for (int dof = 0; dof < local.dofs(); ++dof) local.fix(dof);
+    meet(operations);
+    fill();
+    check(KSPSetUp(method));
+    check(KSPSetUpOnBlocks(method));
   }
   void makeFree(MPI_Comm ranks) {
     const PetscInt n = layout.blocks() * B;
@@ -348,23 +377,26 @@ struct PetscLinearSolver {
     check(KSPSetInitialGuessNonzero(method, warm ? PETSC_TRUE : PETSC_FALSE));
     // this object may have come here as a copy of another one
     MultiVecDeriv<Operations> direction(operations), product(operations);
+    // (by reference, which a std::function has room for)
+    auto productOf = [&](PetscScalar const* in, PetscScalar* out) {
+      takeScalars(in);
+      operations.scatter(direction.id, x);
+      product.clear();
+      operations.addMBKdx(product.id, direction.id, last);
+      operations.projectResponse(product.id);
+      operations.gather(x, product.id);
+      for (PetscInt i = 0; i < layout.blocks() * B; ++i) out[i] = PetscScalar(x[Eigen::Index(dofOf(i))]);
+    };
+    auto cycleOf = [&](PetscScalar const* in, PetscScalar* out) { multigrid.apply(operations, in, out); };
     if (matrixFree()) {
       check(MatShellSetContext(system, this));
-      multiply = [&](PetscScalar const* in, PetscScalar* out) {
-        takeScalars(in);
-        operations.scatter(direction.id, x);
-        product.clear();
-        operations.addMBKdx(product.id, direction.id, last);
-        operations.projectResponse(product.id);
-        operations.gather(x, product.id);
-        for (PetscInt i = 0; i < layout.blocks() * B; ++i) out[i] = PetscScalar(x[Eigen::Index(dofOf(i))]);
-      };
+      multiply = std::ref(productOf);
     }
     if (ownMultigrid()) {
       PC pc = nullptr;
       check(KSPGetPC(method, &pc));
       check(PCShellSetContext(pc, this));
-      precondition = [&](PetscScalar const* in, PetscScalar* out) { multigrid.apply(operations, in, out); };
+      precondition = std::ref(cycleOf);
     }
     if constexpr (distributes<Operations>) operations.root.distribution().ranks().inside("a solver of PETSc");
     const PetscErrorCode code = KSPSolve(method, rightSide, solution);

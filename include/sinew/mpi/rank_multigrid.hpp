@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -47,6 +48,26 @@ class RankMultigrid {
     multigrid_.init(own_, some_workers(operations.workers()));
     x_.setZero(own_.dofs() + 1);
     z_.setZero(own_.dofs() + 1);
+    // of the coarse level, so that no update allocates
+    modes_.assign(std::size_t(local.dofs()) + 8, Row{});
+    held_.assign(std::size_t(local.dofs()) + B, false);
+    columns_.setZero(own_.dofs(), 6);
+    here_.setZero(local.dofs(), 6);
+    owner_.assign(layout.global.size(), 0);
+    Eigen::Index size = 1;
+    if constexpr (distributes<Operations>) {
+      auto& ranks = operations.root.distribution().ranks();
+      rank_ = ranks.rank(), size = ranks.size();
+      kept_.setZero(local.dofs()), column_.setZero(local.dofs());
+      std::vector<PetscInt> begins;
+      ranks.gatherAlike(std::vector<PetscInt>{layout.begin}, begins, "the rows of all ranks");
+      for (std::size_t b = 0; b < owner_.size(); ++b)
+        owner_[b] =
+            int(std::upper_bound(begins.begin(), begins.end(), layout.global[b]) - begins.begin()) - 1;
+    }
+    rows_.assign(std::size_t(36 * size), 0);
+    coarse_.setZero(6 * size, 6 * size);
+    solved_.setZero(6 * size);
   }
 
   /// The values. `work` is a vector of the states that is free for now.
@@ -58,13 +79,12 @@ class RankMultigrid {
       auto const* const from = local.block(slot);
       std::copy(from, from + B * B, own_.block(own_.slot(i, j)));
     });
-    std::vector<Row> modes(std::size_t(local.dofs()) + 8, Row{});
-    rigid_modes(operations, modes);
+    rigid_modes(operations, modes_);
     for (std::size_t i = 0; i < layout.rows.size(); ++i)
       for (std::size_t r = 0; r < B; ++r)
-        multigrid_.modes[i * B + r] = modes[std::size_t(layout.rows[i]) * B + r];
+        multigrid_.modes[i * B + r] = modes_[std::size_t(layout.rows[i]) * B + r];
     multigrid_.update(some_workers(operations.workers()), own_);
-    makeCoarse(operations, local, layout, modes, work);
+    makeCoarse(operations, local, layout, work);
   }
 
   /// z = M x, of the scalars of this rank. All ranks have to call it.
@@ -74,22 +94,16 @@ class RankMultigrid {
     for (Eigen::Index i = 0; i < n; ++i) x_[i] = typename Matrix::Real(x[i]);
     multigrid_.apply(some_workers(operations.workers()), x_, z_);
     for (Eigen::Index i = 0; i < n; ++i) z[i] = PetscScalar(z_[i]);
-    if (coarse_.size() == 0) return;
+    if (!hasCoarse_) return;
     for (Eigen::Index k = 0; k < 6; ++k) {
       double sum = 0;
       for (Eigen::Index i = 0; i < n; ++i) sum += columns_(i, k) * double(x[i]);
       sums_[std::size_t(k)] = sum;
     }
-    std::vector<double> all = sums_;
-    int rank = 0;
-    if constexpr (distributes<Operations>) {
-      auto& ranks = operations.root.distribution().ranks();
-      rank = ranks.rank();
-      all = ranks.gather(sums_, std::vector<std::size_t>(std::size_t(ranks.size()), 6), "the coarse level");
-    }
-    const Eigen::VectorXd solved =
-        factor_.solve(Eigen::Map<Eigen::VectorXd const>(all.data(), coarse_.rows()));
-    const Eigen::Matrix<double, 6, 1> mine = solved.template segment<6>(6 * rank);
+    gather(operations, sums_, "the coarse level");
+    for (Eigen::Index k = 0; k < solved_.size(); ++k) solved_[k] = all_[std::size_t(k)];
+    factor_.solveInPlace(solved_);
+    const Eigen::Matrix<double, 6, 1> mine = solved_.template segment<6>(6 * rank_);
     for (Eigen::Index i = 0; i < n; ++i) z[i] += PetscScalar(columns_.row(i).dot(mine));
   }
 
@@ -105,10 +119,28 @@ class RankMultigrid {
   Matrix own_{};
   Multigrid multigrid_{};
   Vector x_{}, z_{};
+  int rank_ = 0;
+  std::vector<int> owner_{};  // rank of each block here
+  std::vector<Row> modes_{};
+  std::vector<bool> held_{};
   Columns columns_{};  // of P that are of this rank, orthonormal, or zero
+  Columns here_{};     // P at all points here, those of other ranks, too: columns of the rank that has them
+  Vector kept_{}, column_{};
   Eigen::MatrixXd coarse_{};
   Eigen::LLT<Eigen::MatrixXd> factor_{};
-  std::vector<double> sums_ = std::vector<double>(6, 0.0);
+  bool hasCoarse_ = false;
+  Eigen::VectorXd solved_{};
+  std::vector<double> sums_ = std::vector<double>(6, 0.0), rows_{}, all_{};
+
+  // into all_, of each rank as many
+  template <class Operations>
+  void gather(Operations& operations, std::vector<double> const& own,
+              [[maybe_unused]] std::string_view what) {
+    if constexpr (distributes<Operations>)
+      operations.root.distribution().ranks().gatherAlike(own, all_, what);
+    else
+      all_ = own;
+  }
 
   // f(row, column, slot, transposed) for blocks between what is of this rank
   template <class F>
@@ -119,8 +151,7 @@ class RankMultigrid {
       });
   }
   // rows of the matrix with nothing beside the diagonal: what is held does not move rigidly
-  static std::vector<bool> heldDofs(Matrix const& local, PetscLayout const& layout) {
-    std::vector<bool> held(std::size_t(local.dofs()) + B, false);
+  void findHeld(Matrix const& local, PetscLayout const& layout) {
     for (const PetscInt row : layout.rows) {
       bool others[std::size_t(B)] = {};
       local.forEachInRow(int(row), [&](int column, int slot, bool transposed) {
@@ -130,21 +161,20 @@ class RankMultigrid {
             if ((column != int(row) || r != c) && block[transposed ? c * B + r : r * B + c] != 0)
               others[r] = true;
       });
-      for (std::size_t r = 0; r < B; ++r) held[std::size_t(row) * B + r] = !others[r];
+      for (std::size_t r = 0; r < B; ++r) held_[std::size_t(row) * B + r] = !others[r];
     }
-    return held;
   }
 
   template <class Operations, class Id>
   void makeCoarse(Operations& operations, Matrix const& local, PetscLayout const& layout,
-                  std::vector<Row> const& modes, [[maybe_unused]] Id work) {
-    const std::vector<bool> held = heldDofs(local, layout);
-    columns_.setZero(own_.dofs(), 6);
+                  [[maybe_unused]] Id work) {
+    findHeld(local, layout);
+    columns_.setZero();
     for (std::size_t i = 0; i < layout.rows.size(); ++i)
       for (std::size_t r = 0; r < B; ++r) {
         const std::size_t dof = std::size_t(layout.rows[i]) * B + r;
-        for (std::size_t k = 0; k < 6 && !held[dof]; ++k)
-          columns_(Eigen::Index(i * B + r), Eigen::Index(k)) = double(modes[dof][k]);
+        for (std::size_t k = 0; k < 6 && !held_[dof]; ++k)
+          columns_(Eigen::Index(i * B + r), Eigen::Index(k)) = double(modes_[dof][k]);
       }
     // Gram and Schmidt, twice; what depends on others is left out
     for (Eigen::Index k = 0; k < 6; ++k) {
@@ -158,58 +188,45 @@ class RankMultigrid {
       else
         columns_.col(k).setZero();
     }
-    int rank = 0, size = 1;
-    // P at all points here, those of other ranks, too: columns of the rank that has them
-    Columns here = Columns::Zero(local.dofs(), 6);
-    std::vector<int> owner(layout.global.size(), 0);
+    here_.setZero();
     for (std::size_t i = 0; i < layout.rows.size(); ++i)
-      here.template middleRows<B>(Eigen::Index(layout.rows[i]) * B) =
+      here_.template middleRows<B>(Eigen::Index(layout.rows[i]) * B) =
           columns_.template middleRows<B>(Eigen::Index(i) * B);
     if constexpr (distributes<Operations>) {
-      auto& ranks = operations.root.distribution().ranks();
-      rank = ranks.rank(), size = ranks.size();
-      Vector kept, column;
-      kept.setZero(local.dofs()), column.setZero(local.dofs());
-      operations.gather(kept, work);
+      operations.gather(kept_, work);
       for (Eigen::Index k = 0; k < 6; ++k) {
-        column = here.col(k).template cast<typename Matrix::Real>();
-        operations.scatter(work, column);
+        column_ = here_.col(k).template cast<typename Matrix::Real>();
+        operations.scatter(work, column_);
         operations.bringGhosts(work);
-        operations.gather(column, work);
-        here.col(k) = column.template cast<double>();
+        operations.gather(column_, work);
+        here_.col(k) = column_.template cast<double>();
       }
-      operations.scatter(work, kept);
-      const auto begins = ranks.gather(std::vector<PetscInt>{layout.begin},
-                                       std::vector<std::size_t>(std::size_t(size), 1),
-                                       "the rows of all ranks");
-      for (std::size_t b = 0; b < owner.size(); ++b)
-        owner[b] = int(std::upper_bound(begins.begin(), begins.end(), layout.global[b]) - begins.begin()) - 1;
+      operations.scatter(work, kept_);
     }
     // six rows of P' A P
-    Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(6, 6 * size);
+    Eigen::Map<Eigen::Matrix<double, 6, Eigen::Dynamic>> rows(rows_.data(), 6, coarse_.cols());
+    rows.setZero();
     for (std::size_t i = 0; i < layout.rows.size(); ++i)
       local.forEachInRow(int(layout.rows[i]), [&](int column, int slot, bool transposed) {
         auto const* const block = local.block(slot);
         Eigen::Matrix<double, B, B> a;
         for (int r = 0; r < B; ++r)
           for (int c = 0; c < B; ++c) a(r, c) = double(block[transposed ? c * B + r : r * B + c]);
-        rows.template middleCols<6>(6 * owner[std::size_t(column)]) +=
-            columns_.template middleRows<B>(Eigen::Index(i) * B).transpose() * a *
-            here.template middleRows<B>(Eigen::Index(column) * B);
+        const Eigen::Matrix<double, B, 6> force = a * here_.template middleRows<B>(Eigen::Index(column) * B);
+        rows.template middleCols<6>(6 * owner_[std::size_t(column)]).noalias() +=
+            columns_.template middleRows<B>(Eigen::Index(i) * B).transpose() * force;
       });
-    std::vector<double> all(rows.data(), rows.data() + rows.size());
-    if constexpr (distributes<Operations>)
-      all = operations.root.distribution().ranks().gather(
-          all, std::vector<std::size_t>(std::size_t(size), all.size()), "the coarse matrix");
-    coarse_.resize(6 * size, 6 * size);
-    for (int r = 0; r < size; ++r)
-      coarse_.template middleRows<6>(6 * r) = Eigen::Map<Eigen::MatrixXd const>(
-          all.data() + std::size_t(r) * std::size_t(rows.size()), 6, 6 * size);
-    coarse_ = (0.5 * (coarse_ + coarse_.transpose())).eval();
+    gather(operations, rows_, "the coarse matrix");
+    // entry (i, j) of those of all ranks, six rows each
+    auto entry = [&](Eigen::Index i, Eigen::Index j) {
+      return all_[std::size_t(i / 6 * rows.size() + 6 * j + i % 6)];
+    };
+    for (Eigen::Index i = 0; i < coarse_.rows(); ++i)
+      for (Eigen::Index j = 0; j < coarse_.cols(); ++j) coarse_(i, j) = 0.5 * (entry(i, j) + entry(j, i));
     for (Eigen::Index k = 0; k < coarse_.rows(); ++k)
       if (coarse_(k, k) == 0) coarse_(k, k) = 1;  // a motion that is left out
     factor_.compute(coarse_);
-    if (factor_.info() != Eigen::Success) coarse_.resize(0, 0);
+    hasCoarse_ = factor_.info() == Eigen::Success;
   }
 };
 

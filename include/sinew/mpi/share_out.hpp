@@ -106,8 +106,7 @@ void refuse_undistributed(RootScope const& root) {
 }
 
 /// Shares out a scene that is initialised: each rank keeps its part of each state, of the topologies over it,
-/// and of what refers to their points and elements. Returns the addresses of what has to be initialised
-/// again.
+/// and of what refers to their points and elements. All has to be initialised again.
 ///
 /// What a mapped state does comes back to the points of its parent. So points of a parent have something in
 /// common, as those of an element have, where one element of the child is carried by them; and a rank has
@@ -119,7 +118,7 @@ class ShareOut {
  public:
   ShareOut(RootScope const& root, Distribution& to) : root_(root), to_(to) {}
 
-  std::vector<void const*> apply() {
+  void apply() {
     describe();
     if (std::none_of(states_.begin(), states_.end(), [](State const& s) { return s.moves; }))
       throw Error(root_.path(),
@@ -128,10 +127,8 @@ class ShareOut {
       if (!s.parent) share(s);
     shareMapped();
     traverse(root_, on<AnyRole>([&](auto& c, auto const& scope) { follow(c, scope); }));
-    for (State& s : states_) to_.add(Halo(std::move(s.part), to_.ranks().rank()), s.parent && s.moves);
-    std::vector<void const*> touched;
-    traverse(root_, on<AnyRole>([&](auto& c, auto const&) { touched.push_back(&c); }));
-    return touched;
+    for (State& s : states_)
+      to_.add(Halo(std::move(s.part), to_.ranks().rank(), s.bytes), s.parent && s.moves);
   }
 
  private:
@@ -139,7 +136,7 @@ class ShareOut {
   struct State {
     void const* address;
     std::string where;
-    std::size_t points;
+    std::size_t points, bytes;  // of positions and velocities, of one
     std::vector<TopologyView> views{};
     std::vector<void const*> topologies{};
     std::vector<Points> joined{};       // points that have more than an element in common
@@ -184,7 +181,10 @@ class ShareOut {
 
   void describe() {
     traverse(root_, on<role::State>([&](auto& s, auto const& scope) {
-               states_.push_back(State{.address = &s, .where = scope.path(), .points = s.size()});
+               states_.push_back(State{.address = &s,
+                                       .where = scope.path(),
+                                       .points = s.size(),
+                                       .bytes = sizeof s.position[0] + sizeof s.velocity[0]});
              }));
     for_each_integrator(root_, [&](auto&, auto const& scope) {
       traverse(scope, on<role::State>([&](auto& s, auto const&) { find(&s)->moves = true; }));

@@ -21,6 +21,10 @@
 #include <utility>
 #include <vector>
 
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
+
 namespace sinew::mpi {
 
 /// All functions but time() and root() are to be called by all ranks; where one throws, all throw the same
@@ -46,10 +50,13 @@ class DistributedSimulation {
       local_.init(time, step);
       f(scopeOf(local_.root()));
       if (keepsWhole_ && ranks_->rank() == 0) whole_.emplace(local_.root());
-      local_.change([&](auto& next) {
-        const auto scope = scopeOf(next);
-        return ShareOut(scope, next.distribution()).apply();
+      local_.reduce([&](auto& root) {
+        const auto scope = scopeOf(root);
+        ShareOut(scope, root.distribution()).apply();
       });
+#ifdef __GLIBC__
+      malloc_trim(0);  // what the whole scene took goes back to the machine
+#endif
     });
   }
   void animate(double dt) {

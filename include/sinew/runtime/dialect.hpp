@@ -412,7 +412,7 @@ constexpr Preconditions const* preconditioner_named(std::string_view tag) {
 
 /// Those of a MultigridLinearSolver that a solver with it as preconditioner has, too.
 inline constexpr std::array multigridAttributes = std::to_array<std::string_view>(
-    {"warp", "levels", "coarsestSize", "strengthThreshold", "smootherDegree"});
+    {"warp", "levels", "coarsestSize", "strengthThreshold", "smootherDegree", "coarseCycles"});
 
 /// Attributes that are as good as not given where they are empty, or a link to nothing: "@".
 inline constexpr std::array mayBeEmpty =

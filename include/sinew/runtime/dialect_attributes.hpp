@@ -79,7 +79,7 @@ inline constexpr std::array withoutEffectOf = std::to_array<AttributeOf>({
     {"MeshGmshLoader", "polylines"}, {"MeshOBJLoader", "polygons"}, {"MeshOBJLoader", "polylines"}, {"MeshSTLLoader", "polygons"},
     {"MeshSTLLoader", "polylines"},
     {"MeshVTKLoader", "polygons"},
-    {"MeshVTKLoader", "polylines"}, {"ContinuousIntersection", "continuousCollisionType"}, {"ContinuousIntersection", "maxIterations"},
+    {"MeshVTKLoader", "polylines"}, {"ContinuousIntersection", "maxIterations"},
     {"ContinuousIntersection", "tolerance"}, {"VisualModel", "dfactor"}, {"VisualModel", "sfactor"},
     {"NNCGConstraintSolver", "sor"}, {"PreconditionedConjugateResidual", "sor"}, {"ParticleSink", "fixed"}, {"PositionBasedDynamicsProjectiveConstraint", "old_position"},
     {"PositionBasedDynamicsProjectiveConstraint", "velocity"}, {"PointCollisionModel", "leafScale"}, {"ParticleSource", "lastparticles"}, {"RegularGridTopology", "position"}, {"RegularGridTopology", "tetrahedra"},

@@ -83,6 +83,8 @@ struct Collision {
                  manager.init(scope.path(), pipeline.surfaces, again);
                  checkMultipliers(manager, scope);
                });
+               if constexpr (requires { pipeline.afterFreeMotion; })
+                 pipeline.afterFreeMotion = looksAtFreeMotion(scope);
                auto lookAround = [&](auto& stage) {
                  if constexpr (LooksAround<std::decay_t<decltype(stage)>>)
                    stage.lookAround(pipeline.surfaces);
@@ -120,15 +122,35 @@ struct Collision {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                if constexpr (requires { pipeline.begun; })
                  if (pipeline.begun) return;
-               detectOnHost(pipeline, scope, dt, newPattern);
+               lookAtModels(pipeline, scope);
+               if (!comesAfterFreeMotion(pipeline)) return find(pipeline, scope, dt, newPattern);
+               with_first<role::ContactManager>(scope, [&](auto& manager) {
+                 manager.await();
+                 if (manager.couplingChanged) forEachSolver(root, newPattern);
+               });
              }));
   }
-  /// The contacts for which states have begun to look; f(pipeline, manager, whether rows are those of the
+  /// Whether contacts of a pipeline are found by finish(), behind the free motion of a step.
+  template <class Pipeline>
+  static bool isToCome(Pipeline const& pipeline) {
+    bool toCome = comesAfterFreeMotion(pipeline);
+    if constexpr (requires { pipeline.begun; }) toCome = toCome || pipeline.begun;
+    return toCome;
+  }
+  /// The contacts for which states have begun to look, and those on the way of the free motion: states are at
+  /// the start of the step, and freePosition behind it. f(pipeline, manager, whether rows are those of the
   /// step before but for violations) where there are some to come.
   template <class F>
   void finish(double dt, F&& f) const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
                using S = std::decay_t<decltype(scope)>;
+               if (comesAfterFreeMotion(pipeline)) {
+                 takeFreeMotion(modelsOf(pipeline, scope), dt);
+                 // multipliers join no vertices in the matrix of a solver
+                 find(pipeline, scope, dt, [](auto const&, bool) {});
+                 with_first<role::ContactManager>(scope, [&](auto& manager) { f(pipeline, manager, false); });
+                 return;
+               }
                if constexpr (StateContacts<S>::possible && !ListsModels<std::decay_t<decltype(pipeline)>>) {
                  using Found = typename StateContacts<S>::Found;
                  auto found = Found::others;
@@ -280,19 +302,72 @@ struct Collision {
     });
     return several;
   }
+  template <class Pipeline>
+  static bool comesAfterFreeMotion(Pipeline const& pipeline) {
+    if constexpr (requires { pipeline.afterFreeMotion; })
+      return pipeline.afterFreeMotion;
+    else
+      return false;
+  }
+  // Whether the intersection method of a pipeline does; throws Error where nothing moves freely, or what
+  // contacts do is to be known before.
+  template <class S>
+  bool looksAtFreeMotion(S const& scope) const {
+    bool looks = false;
+    with_first<role::Intersection>(scope, [&](auto const& method) {
+      looks = motion_seen_by(method) == StepMotion::freeMotion;
+      if (!looks) return;
+      auto refuse = [&](std::string_view why) {
+        throw Error(text(scope.path(), ": ", component_name<std::decay_t<decltype(method)>>()),
+                    text("contacts are looked for on the way of the free motion (freeMotion), but ",
+                         why,
+                         ", or say inertia, which looks where velocities lead"));
+      };
+      if (!with_first<role::AnimationLoop>(root, [](auto const&) {}))
+        refuse(
+            "nothing moves freely here: put a FreeMotionAnimationLoop and a constraint solver, such as "
+            "BlockGaussSeidelConstraintSolver, into the root");
+      with_first<role::ContactManager>(scope, [&](auto const& manager) {
+        if (!manager.asksForMultipliersOnly())
+          refuse(
+              "a response to contacts is a force, with which bodies would have moved: take a response by "
+              "multipliers, such as FrictionContactConstraint");
+      });
+      if (any_below<role::Carving>(root))
+        refuse("tools carve by the contacts at the start of a step: leave these out");
+    });
+    return looks;
+  }
+  // where models are, and what responses remember of the step before
+  template <class Pipeline, class S>
+  void lookAtModels(Pipeline& pipeline, S const& scope) const {
+    [[maybe_unused]] const auto span = root.span(Phase::positions);
+    collect(pipeline, modelsOf(pipeline, scope));
+    with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
+  }
+  // models below a scope whose velocities are those of the free motion
+  template <class S>
+  static void takeFreeMotion(S const& models, double dt) {
+    for_each_collision_model(
+        models, [dt]<class D>(auto& model, auto const& s, auto const&, std::type_identity<D>) {
+          CollisionSurface& surface = model.surface;
+          if (surface.solver < 0) return;  // it is where it will be, and has come there
+          for (std::size_t i = 0; i < s.position.size(); ++i) {
+            const typename D::Deriv moved = D::difference(s.position[i], s.freePosition[i]);
+            update_vertices<D>(surface, i, s.position[i], moved / typename D::Real(dt));
+          }
+        });
+  }
   template <class Pipeline, class S, class F>
-  void detectOnHost(Pipeline& pipeline, S const& scope, double dt, F&& newPattern) const {
-    {
-      [[maybe_unused]] const auto span = root.span(Phase::positions);
-      collect(pipeline, modelsOf(pipeline, scope));
-      with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
-    }
+  void find(Pipeline& pipeline, S const& scope, double dt, F&& newPattern) const {
+    double ahead = dt;
     with_first<role::Intersection>(scope, [&](auto const& intersection) {
       [[maybe_unused]] const auto span = root.span(Phase::boundingTrees);
+      if (motion_seen_by(intersection) == StepMotion::none) ahead = 0;
       for (auto* s : pipeline.surfaces) {
         if constexpr (ListsModels<Pipeline>)
           if (!pipeline.takes(*s)) continue;
-        s->enclose(intersection.reach() / 2, intersection.continuous ? dt : 0);
+        s->enclose(intersection.reach() / 2, ahead);
       }
     });
     with_first<role::BroadPhase>(scope, [&](auto& broad) {
@@ -305,7 +380,7 @@ struct Collision {
         with_first<role::Intersection>(scope, [&](auto const& intersection) {
           using Models = std::decay_t<decltype(modelsOf(pipeline, scope))>;
           pipeline.findContacts(
-              detail::list_of_shapes<detail::shapes_below<Models>()>(), narrow, intersection, manager, dt);
+              detail::list_of_shapes<detail::shapes_below<Models>()>(), narrow, intersection, manager, ahead);
         });
       });
       [[maybe_unused]] const auto span = root.span(Phase::response);

@@ -180,7 +180,7 @@ struct ConstrainedStep {
             });
     }
   }
-  // those that states have begun to look for; whether all are as in the last step
+  // those that are found behind the free motion; whether all are as in the last step
   bool finishContacts() const {
     int searches = 0, same = 0;
     if constexpr (collides<RootScope>)

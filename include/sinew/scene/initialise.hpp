@@ -291,7 +291,7 @@ template <class RootScope>
 void Initialisation<RootScope>::checkDivision() {
   bool impacts = false;
   traverse(root_, on<role::Intersection>([&](auto const& intersection, auto const&) {
-             impacts = impacts || intersection.continuous;
+             impacts = impacts || motion_seen_by(intersection) != StepMotion::none;
            }));
   with_first<role::StepDivision>(root_, [&](auto const& division) {
     if (division.integrationSteps > 1 && (constrained_ || impacts))

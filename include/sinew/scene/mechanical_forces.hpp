@@ -9,7 +9,10 @@
 #include <sinew/scene/state_vectors.hpp>
 #include <sinew/scene/states_of.hpp>
 
+#include <functional>
 #include <type_traits>
+#include <utility>
+#include <vector>
 
 namespace sinew {
 
@@ -80,6 +83,15 @@ struct MechanicalForces {
         });
       });
     });
+  }
+
+  /// Calls that make each what it is now.
+  std::vector<std::function<void()>> kept() const {
+    std::vector<std::function<void()>> back;
+    forEach([&](auto& c, auto const&) {
+      back.push_back([of = &c, was = c]() mutable { *of = std::move(was); });
+    });
+    return back;
   }
 
   /// Whether masses give M^-1 f by themselves: each is diagonal, and none is that of a mapped state.

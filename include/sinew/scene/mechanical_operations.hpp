@@ -109,6 +109,23 @@ struct MechanicalOperations : StateVectors<Root> {
   void assemble(Matrix& matrix, MatrixFactors factors) {
     SystemMatrix<Root>{root}.assemble(matrix, paramsOf(factors));
   }
+  /// At init, outside of steps: f() with the matrix m M + k K of the state as it is now, without contacts.
+  /// What force fields remember from step to step stays what it was.
+  template <class Matrix, class F>
+  void withMatrixAtInit(Matrix& matrix, MatrixFactors factors, F&& f) {
+    const auto back = forces().kept();
+    auto clearForces = [&] {
+      this->forEachState([](auto& s) {
+        VectorOperations<typename std::decay_t<decltype(s)>::DataTypes>::clear(OneThread{}, s[vec_id::force]);
+      });
+    };
+    clearForces();
+    forces().add(vec_id::force, vec_id::position, vec_id::velocity, {.time = time});
+    assemble(matrix, factors);
+    f();
+    for (auto const& call : back) call();
+    clearForces();
+  }
 
  private:
   MechanicalForces<Root> forces() const { return {root}; }

@@ -135,6 +135,25 @@ class Simulation {
     propagate();
   }
 
+  /// The same of all of the scene where it is, without a copy of what it was: edit(root) leaves less of it,
+  /// lists get as much memory as they have entries, and every component is initialised again. Where edit or
+  /// the new scene is wrong, Error is thrown, and the simulation is of no use any more.
+  template <class F>
+  void reduce(F&& edit) {
+    initialisedFor("reduce");
+    initialised_ = false;
+    edit(root_);
+    root_ = Root(root_);
+    const auto scope = rootScope();
+    scope.settled();
+    InitAgain all{.again = true};
+    traverse(scope, on<AnyRole>([&](auto& c, auto const&) { all.touched.push_back(&c); }));
+    std::sort(all.touched.begin(), all.touched.end(), std::less<>{});
+    Initialisation<RootScope>(scope, std::move(all)).run();
+    propagate();
+    initialised_ = true;
+  }
+
   /// Removes elements of the topology of the node at a path from the root ("liver"), and with them faces and
   /// edges that are left without an element, and points (plan_element_removal). All that refers to them
   /// follows: states lose the points, components the entries of their lists, mapped states what was mapped

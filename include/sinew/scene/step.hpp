@@ -158,8 +158,7 @@ struct Step {
   StepNotes notes() const { return {warnings, number, time + dt}; }
   void warnOfOverlaps() const {
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               if constexpr (requires { pipeline.begun; })
-                 if (pipeline.begun) return;  // what has to come
+               if (Collision<RootScope>::isToCome(pipeline)) return;
                with_first<role::ContactManager>(
                    scope, [&](auto& manager) { warn_of_overlaps(notes(), pipeline, manager); });
              }));

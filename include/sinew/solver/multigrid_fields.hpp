@@ -2,7 +2,9 @@
 #pragma once
 
 #include <sinew/core/fields.hpp>
+#include <sinew/core/workers.hpp>
 #include <sinew/linalg/multigrid.hpp>
+#include <sinew/solver/rigid_modes.hpp>
 
 namespace sinew {
 
@@ -32,7 +34,14 @@ constexpr auto multigrid_fields(Own... own) {
             &S::smootherDegree,
             "",
             "of multigrid: steps of the smoother before and behind the coarse levels",
-            range::closed(1, 100)));
+            range::closed(1, 100)),
+      field("coarseCycles",
+            &S::coarseCycles,
+            "",
+            "of multigrid: cycles of a coarse level in one of the level above: 1 is the V-cycle, 2 the "
+            "W-cycle; "
+            "on a device always 1",
+            range::closed(1, 10)));
 }
 
 /// The values of those fields.
@@ -41,7 +50,20 @@ MultigridSettings multigrid_settings(Solver const& s) {
   return {.levels = s.levels,
           .coarsestSize = s.coarsestSize,
           .threshold = s.strengthThreshold,
-          .degree = s.smootherDegree};
+          .degree = s.smootherDegree,
+          .cycles = s.coarseCycles};
+}
+
+/// Aggregates and patterns at init, so that no step allocates: those of the stiffness as it is now, with the
+/// little mass that holds what nothing else does. Where time steps are short masses join nothing, and then
+/// any aggregates serve. In a step, where contacts have come that the matrix has no room for, they wait for
+/// the next solve.
+template <class Operations, class Matrix>
+void prepare_multigrid(Operations& operations, Matrix& matrix, Multigrid& multigrid) {
+  rigid_modes(operations, multigrid.modes);
+  if (operations.dt != 0) return;
+  operations.withMatrixAtInit(
+      matrix, {.m = 1, .k = -1e4}, [&] { multigrid.update(some_workers(operations.workers()), matrix); });
 }
 
 }  // namespace sinew

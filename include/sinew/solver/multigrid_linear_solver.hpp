@@ -14,12 +14,12 @@
 
 namespace sinew {
 
-/// Conjugate gradients from x = 0, preconditioned by one V-cycle of multigrid with smoothed aggregation
+/// Conjugate gradients from x = 0, preconditioned by one cycle of multigrid with smoothed aggregation
 /// (Vanek, Mandel, Brezina 1996): the iterations hardly grow with the number of points. Points are aggregated
 /// by what joins them in the matrix, and the coarse unknowns of an aggregate are the six motions in which it
 /// stays rigid (constants, where the points are no places in space). The cycle works in float, what iterates
-/// in double. Aggregates and patterns are found in the first solve, and anew where points come to be held or
-/// are no longer; other solves fill them, without allocating. Where all states are points in space on a
+/// in double. Aggregates and patterns are those of the stiffness at init, and anew where points come to be
+/// held or are no longer; solves fill them, without allocating. Where all states are points in space on a
 /// device, so are matrix, cycle and what iterates, of the states' precision, but with `warp`.
 template <class Matrix = CompressedRowSparseMatrixMat3x3d>
 struct MultigridLinearSolver {
@@ -35,7 +35,7 @@ struct MultigridLinearSolver {
   bool updateModes = true;
   int levels = 10, coarsestSize = 200;
   double strengthThreshold = 0.05;
-  int smootherDegree = 2;
+  int smootherDegree = 2, coarseCycles = 1;
 
   static constexpr auto fields() {
     using S = MultigridLinearSolver;
@@ -154,7 +154,7 @@ struct MultigridLinearSolver {
   void initMatrix(Operations& operations) {
     operations.initMatrix(matrix);
     multigrid.init(matrix, some_workers(operations.workers()));
-    rigid_modes(operations, multigrid.modes);
+    prepare_multigrid(operations, matrix, multigrid);
     if (warp) rotations.init(operations, matrix);
     for (Vector* v : {&x, &b, &r, &p, &q, &z, &turned})
       v->setZero(matrix.dofs() + 1);  // the last stays 0: multiply reads it

@@ -44,7 +44,7 @@ struct ShewchukPCGLinearSolver {
   bool warp = false;
   int levels = 10, coarsestSize = 200;
   double strengthThreshold = 0.05;
-  int smootherDegree = 2;
+  int smootherDegree = 2, coarseCycles = 1;
 
   static constexpr auto fields() {
     using S = ShewchukPCGLinearSolver;
@@ -87,6 +87,8 @@ struct ShewchukPCGLinearSolver {
     operations.initMatrix(matrix);
     preconditioner.multigrid.settings = multigrid_settings(*this);
     preconditioner.init(matrix, method(), matrix.dofs(), some_workers(operations.workers()));
+    if (method() == PreconditionerMethod::multigrid)
+      prepare_multigrid(operations, matrix, preconditioner.multigrid);
     preconditioner.omega = omega;
     if (warp) rotations.init(operations, matrix);
     for (Vector* v : {&x, &b, &r, &p, &q, &rotated})

@@ -27,19 +27,11 @@ struct CylinderGridTopology {
 
   static constexpr auto fields() {
     using T = CylinderGridTopology;
-    return field_list(
-        field("n", &T::n, "", "points across, twice, and along the axis", range::atLeast(1)),
-        field("nx", &T::nx, "", "points across, in place of the first of n", range::atLeast(1)),
-        field("ny", &T::ny, "", "points across, in place of the second of n", range::atLeast(1)),
-        field("nz", &T::nz, "", "points along the axis, in place of the third of n", range::atLeast(1)),
+    return round_grid_fields<T>(
         field("center", &T::center, "m", "middle of the first layer"),
         field("axis", &T::axis, "", "direction of the cylinder, of any length"),
         field("radius", &T::radius, "m", "radius of the cylinder", range::positive),
-        field("length", &T::length, "m", "length of the cylinder along its axis", range::positive),
-        field("computeHexaList", &T::computeHexaList, "", "whether hexahedra are made"),
-        field("computeQuadList", &T::computeQuadList, "", "whether quads are made"),
-        field("computeTriangleList", &T::computeTriangleList, "", "whether triangles are made"),
-        field("computeEdgeList", &T::computeEdgeList, "", "whether edges are made"));
+        field("length", &T::length, "m", "length of the cylinder along its axis", range::positive));
   }
 
   // after generate
@@ -50,16 +42,7 @@ struct CylinderGridTopology {
   std::vector<Hexahedron> hexahedra{};
   std::array<int, 3> points{0, 0, 0};
 
-  static constexpr auto outputs() {
-    using T = CylinderGridTopology;
-    return field_list(
-        field("position", &T::position, "m", "the points, the first direction across fastest").also("points"),
-        field("grid", &T::points, "", "points along x, y and z"),
-        field("edges", &T::edges, "", "lines between neighbours").also("lines"),
-        field("triangles", &T::triangles, "", "each quad as two"),
-        field("quads", &T::quads, "", "squares of each layer, then those between layers"),
-        field("hexahedra", &T::hexahedra, "", "the cells").also("hexas"));
-  }
+  static constexpr auto outputs() { return round_grid_outputs<CylinderGridTopology>(); }
 
   TopologyView view() const { return detail::grid_view(*this); }
 

@@ -13,6 +13,16 @@
 
 namespace sinew {
 
+/// The fields of a grid of which all elements are made, behind its own.
+template <class T, class... Own>
+constexpr auto grid_fields(Own... own) {
+  return field_list(own...,
+                    field("computeHexaList", &T::computeHexaList, "", "whether hexahedra are made"),
+                    field("computeQuadList", &T::computeQuadList, "", "whether quads are made"),
+                    field("computeTriangleList", &T::computeTriangleList, "", "whether triangles are made"),
+                    field("computeEdgeList", &T::computeEdgeList, "", "whether edges are made"));
+}
+
 namespace detail {
 
 /// Throws the Error of a box without volume.

@@ -29,7 +29,7 @@ struct RegularGridTopology {
 
   static constexpr auto fields() {
     using T = RegularGridTopology;
-    return field_list(
+    return grid_fields<T>(
         field("n", &T::n, "", "points along x, y and z", range::atLeast(1)),
         field("nx", &T::nx, "", "points along x, in place of that of n", range::atLeast(1)),
         field("ny", &T::ny, "", "points along y, in place of that of n", range::atLeast(1)),
@@ -47,11 +47,7 @@ struct RegularGridTopology {
               &T::cellWidth,
               "m",
               "size of the cubic cells that cover the box, in place of n; 0 for cells as n says",
-              range::nonNegative),
-        field("computeHexaList", &T::computeHexaList, "", "whether hexahedra are made"),
-        field("computeQuadList", &T::computeQuadList, "", "whether quads are made"),
-        field("computeTriangleList", &T::computeTriangleList, "", "whether triangles are made"),
-        field("computeEdgeList", &T::computeEdgeList, "", "whether edges are made"));
+              range::nonNegative));
   }
 
   // after generate

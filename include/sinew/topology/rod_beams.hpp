@@ -14,6 +14,25 @@
 
 namespace sinew {
 
+/// The fields of a section, and behind them those that only some have.
+template <class S, class... More>
+constexpr auto rod_section_fields(More... more) {
+  return field_list(
+      field("length", &S::length, "m", "along the wire", range::positive),
+      field("youngModulus", &S::youngModulus, "Pa", "stiffness of the material", range::positive),
+      field("poissonRatio",
+            &S::poissonRatio,
+            "",
+            "lateral contraction per strain",
+            Range{.low = -1, .high = 0.5, .openLow = true}),
+      field("massDensity", &S::massDensity, "kg/m^3", "mass of a volume", range::positive),
+      field("radius", &S::radius, "m", "of the section", range::positive),
+      field("innerRadius", &S::innerRadius, "m", "of the hole in it", range::nonNegative),
+      field("nbBeams", &S::nbBeams, "", "beams of equal length", range::atLeast(1)),
+      field("nbEdgesCollis", &S::nbEdgesCollis, "", "edges for collisions", range::atLeast(1)),
+      more...);
+}
+
 /// A length of a wire, of one material and a round section, which is divided into equal beams. It is straight
 /// at rest, or, with a spireDiameter D, a helix of that diameter which rises by the spireHeight H in a turn:
 /// of curvature 2 pi^2 D / l^2 and torsion 2 pi H / l^2 for a turn of the length l^2 = H^2 + (pi D)^2. It
@@ -27,23 +46,27 @@ struct RodSection {
 
   static constexpr auto fields() {
     using S = RodSection;
-    return field_list(
-        field("length", &S::length, "m", "along the wire", range::positive),
-        field("youngModulus", &S::youngModulus, "Pa", "stiffness of the material", range::positive),
-        field("poissonRatio",
-              &S::poissonRatio,
-              "",
-              "lateral contraction per strain",
-              Range{.low = -1, .high = 0.5, .openLow = true}),
-        field("massDensity", &S::massDensity, "kg/m^3", "mass of a volume", range::positive),
-        field("radius", &S::radius, "m", "of the section", range::positive),
-        field("innerRadius", &S::innerRadius, "m", "of the hole in it", range::nonNegative),
-        field("nbBeams", &S::nbBeams, "", "beams of equal length", range::atLeast(1)),
-        field("nbEdgesCollis", &S::nbEdgesCollis, "", "edges for collisions", range::atLeast(1)),
+    return rod_section_fields<S>(
         field("spireDiameter", &S::spireDiameter, "m", "of a helix; 0: straight", range::nonNegative),
         field("spireHeight", &S::spireHeight, "m", "rise of a helix in a turn", range::nonNegative));
   }
 };
+
+/// A component with the fields of a section as one.
+template <class S>
+RodSection rod_section(S const& s) {
+  RodSection section{.length = s.length,
+                     .youngModulus = s.youngModulus,
+                     .poissonRatio = s.poissonRatio,
+                     .massDensity = s.massDensity,
+                     .radius = s.radius,
+                     .innerRadius = s.innerRadius,
+                     .nbBeams = s.nbBeams,
+                     .nbEdgesCollis = s.nbEdgesCollis};
+  if constexpr (requires { s.spireDiameter; })
+    section.spireDiameter = s.spireDiameter, section.spireHeight = s.spireHeight;
+  return section;
+}
 
 /// A beam between two frames: what it is made of, and where its second frame is at rest, seen from its first.
 /// The first axes of both are along it.

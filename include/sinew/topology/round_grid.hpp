@@ -4,14 +4,40 @@
 #include <sinew/core/compiled.hpp>
 #include <sinew/topology/regular_grid.hpp>
 
-namespace sinew::detail {
+namespace sinew {
+
+/// The fields of a grid that is round about an axis, among them its own.
+template <class T, class... Own>
+constexpr auto round_grid_fields(Own... own) {
+  return grid_fields<T>(
+      field("n", &T::n, "", "points across, twice, and along the axis", range::atLeast(1)),
+      field("nx", &T::nx, "", "points across, in place of the first of n", range::atLeast(1)),
+      field("ny", &T::ny, "", "points across, in place of the second of n", range::atLeast(1)),
+      field("nz", &T::nz, "", "points along the axis, in place of the third of n", range::atLeast(1)),
+      own...);
+}
+
+template <class T>
+constexpr auto round_grid_outputs() {
+  return field_list(
+      field("position", &T::position, "m", "the points, the first direction across fastest").also("points"),
+      field("grid", &T::points, "", "points along x, y and z"),
+      field("edges", &T::edges, "", "lines between neighbours").also("lines"),
+      field("triangles", &T::triangles, "", "each quad as two"),
+      field("quads", &T::quads, "", "squares of each layer, then those between layers"),
+      field("hexahedra", &T::hexahedra, "", "the cells").also("hexas"));
+}
+
+namespace detail {
 
 /// Points of a grid over a square (or cube) of half width `radius` around the origin, rounded in two (or
 /// three) dimensions, about `axis`; in two, along it from 0 to `length`.
 Mesh round_grid_points(std::string_view where, std::array<int, 3> const& n, Eigen::Vector3d const& axis,
                        int dimensions, double radius, double length);
 
-}  // namespace sinew::detail
+}  // namespace detail
+
+}  // namespace sinew
 
 #if SINEW_DEFINES
 #include <Eigen/Geometry>

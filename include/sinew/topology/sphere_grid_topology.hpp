@@ -26,18 +26,10 @@ struct SphereGridTopology {
 
   static constexpr auto fields() {
     using T = SphereGridTopology;
-    return field_list(
-        field("n", &T::n, "", "points across, twice, and along the axis", range::atLeast(1)),
-        field("nx", &T::nx, "", "points across, in place of the first of n", range::atLeast(1)),
-        field("ny", &T::ny, "", "points across, in place of the second of n", range::atLeast(1)),
-        field("nz", &T::nz, "", "points along the axis, in place of the third of n", range::atLeast(1)),
+    return round_grid_fields<T>(
         field("center", &T::center, "m", "middle of the ball"),
         field("axis", &T::axis, "", "direction of the third direction of the grid, of any length"),
-        field("radius", &T::radius, "m", "radius of the ball", range::positive),
-        field("computeHexaList", &T::computeHexaList, "", "whether hexahedra are made"),
-        field("computeQuadList", &T::computeQuadList, "", "whether quads are made"),
-        field("computeTriangleList", &T::computeTriangleList, "", "whether triangles are made"),
-        field("computeEdgeList", &T::computeEdgeList, "", "whether edges are made"));
+        field("radius", &T::radius, "m", "radius of the ball", range::positive));
   }
 
   // after generate
@@ -48,16 +40,7 @@ struct SphereGridTopology {
   std::vector<Hexahedron> hexahedra{};
   std::array<int, 3> points{0, 0, 0};
 
-  static constexpr auto outputs() {
-    using T = SphereGridTopology;
-    return field_list(
-        field("position", &T::position, "m", "the points, the first direction across fastest").also("points"),
-        field("grid", &T::points, "", "points along x, y and z"),
-        field("edges", &T::edges, "", "lines between neighbours").also("lines"),
-        field("triangles", &T::triangles, "", "each quad as two"),
-        field("quads", &T::quads, "", "squares of each layer, then those between layers"),
-        field("hexahedra", &T::hexahedra, "", "the cells").also("hexas"));
-  }
+  static constexpr auto outputs() { return round_grid_outputs<SphereGridTopology>(); }
 
   TopologyView view() const { return detail::grid_view(*this); }
 

@@ -4,7 +4,7 @@
 // What the threads of multigrid do: the sums of linalg/multigrid.hpp, each thread or team with what it alone
 // writes. Matrices keep their values in double for those of the level below, and in float for the cycle.
 
-#include <sinew/core/platform.hpp>
+#include <sinew/core/lane_lists.hpp>
 #include <sinew/gpu/data_types.hpp>
 #include <sinew/linalg/chebyshev.hpp>
 #include <sinew/linalg/held_modes.hpp>
@@ -92,9 +92,7 @@ SINEW_INLINE void add_row(Rows<R> const& rows, float const* values, float const*
         sum[r] += once(a + 96 * r) * x0 + once(a + 96 * r + 32) * x1 + once(a + 96 * r + 64) * x2;
     }
   } else {
-    struct alignas(16) Four {
-      float of[4];
-    };
+    using Four = FourOf<float>;
     rows.each(row, lane, lanes, [&](int k, int column) {
       Four const* const from = reinterpret_cast<Four const*>(v + 8 * std::ptrdiff_t(column));
       const Four low = from[0], high = from[1];

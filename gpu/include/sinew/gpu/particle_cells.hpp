@@ -2,6 +2,7 @@
 #pragma once
 
 #include <sinew/core/boundary_particles.hpp>
+#include <sinew/core/lane_lists.hpp>
 #include <sinew/gpu/data_types.hpp>
 #include <sinew/gpu/reduction.hpp>
 #include <sinew/gpu/sorting.hpp>
@@ -13,11 +14,6 @@
 #include <utility>
 
 namespace sinew::gpu {
-
-template <class Real>
-struct alignas(4 * sizeof(Real)) Four {
-  Real x, y, z, w;
-};
 
 /// Particles in the order of their cells on a device, as SortedParticles has them on the processor: cells by
 /// z, then y, then x, so that all that are within the width of a cell of one are in nine ranges.
@@ -40,9 +36,9 @@ class ParticleCells {
 
   /// What loops on the device read.
   struct View {
-    Four<Real> const* places;  // w is 0
-    int const *order, *cell;   // of each place; cells count from 1
-    Range const* ranges;       // of a row of cells around, one behind another
+    FourOf<Real> const* places;  // x, and 0
+    int const *order, *cell;     // of each place; cells count from 1
+    Range const* ranges;         // of a row of cells around, one behind another
     int stride;
     Real perRadius;
 
@@ -50,13 +46,13 @@ class ParticleCells {
     template <class F>
     SINEW_HD void each(int place, F&& f) const {
       using std::sqrt;
-      const Four<Real> own = places[place];
+      const FourOf<Real> own = places[place];
       const Range* range = ranges + cell[place];
       for (int row = 0; row < 9; ++row, range += stride) {
         const Range r = *range;
         for (int j = r.begin; j < r.end; ++j) {
-          const Four<Real> other = places[j];
-          Pair pair{j, {own.x - other.x, own.y - other.y, own.z - other.z}, Real(0)};
+          const FourOf<Real> other = places[j];
+          Pair pair{j, {own.of[0] - other.of[0], own.of[1] - other.of[1], own.of[2] - other.of[2]}, Real(0)};
           const Real square =
               (pair.d[0] * pair.d[0] + pair.d[1] * pair.d[1] + pair.d[2] * pair.d[2]) * perRadius * perRadius;
           if (!(square < Real(1))) continue;
@@ -183,10 +179,10 @@ class ParticleCells {
   struct Gather {
     Source source;
     int const* order;
-    Four<Real>* places;
+    FourOf<Real>* places;
     SINEW_HD void operator()(int i) const {
       const int k = order[i];
-      places[i] = {Real(source.at(k, 0)), Real(source.at(k, 1)), Real(source.at(k, 2)), Real(0)};
+      places[i] = {{Real(source.at(k, 0)), Real(source.at(k, 1)), Real(source.at(k, 2)), Real(0)}};
     }
   };
 
@@ -231,7 +227,7 @@ class ParticleCells {
   WorkArray<std::uint64_t> keys_{};
   WorkArray<int> order_{}, cell_{}, cells_{};
   WorkArray<Range> ranges_{};
-  WorkArray<Four<Real>> places_{};
+  WorkArray<FourOf<Real>> places_{};
 };
 
 }  // namespace sinew::gpu

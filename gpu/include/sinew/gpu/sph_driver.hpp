@@ -16,15 +16,15 @@ template <class D>
 struct SphView {
   using Real = typename D::Real;
   typename ParticleCells<D>::View cells;
-  Four<Real> const *states, *motions;  // x and p / rho^2, v and rho
-  Real const* weights;                 // none: there is no boundary, and all are 1
-  Four<Real> const* normals;           // none: the law has no use for them
-  int fluid;                           // numbers below are of the fluid
+  FourOf<Real> const *states, *motions;  // x and p / rho^2, v and rho
+  Real const* weights;                   // none: there is no boundary, and all are 1
+  FourOf<Real> const* normals;           // none: the law has no use for them
+  int fluid;                             // numbers below are of the fluid
   Real mass;
 
   SINEW_INLINE bool isFluid(int place) const { return !weights || cells.order[place] < fluid; }
   SINEW_INLINE Real weight(int place) const { return weights ? weights[place] : Real(1); }
-  SINEW_INLINE Real volume(int place) const { return weight(place) * mass / motions[place].w; }
+  SINEW_INLINE Real volume(int place) const { return weight(place) * mass / motions[place].of[3]; }
 };
 
 /// What a neighbour has.
@@ -36,16 +36,11 @@ struct SphOther {
 
   SINEW_INLINE Real weight() const { return of.weight(place); }
   SINEW_INLINE Real fluid() const { return Real(of.isFluid(place)); }
-  SINEW_INLINE Real normal(std::size_t axis) const { return component(of.normals[place], axis); }
-  SINEW_INLINE Real density() const { return of.motions[place].w; }
-  SINEW_INLINE Real pressure() const { return of.states[place].w; }
+  SINEW_INLINE Real normal(std::size_t axis) const { return of.normals[place].of[axis]; }
+  SINEW_INLINE Real density() const { return of.motions[place].of[3]; }
+  SINEW_INLINE Real pressure() const { return of.states[place].of[3]; }
   SINEW_INLINE Real volume() const { return of.volume(place); }
-  SINEW_INLINE Real velocity(std::size_t axis) const { return component(of.motions[place], axis); }
-
- private:
-  SINEW_INLINE static Real component(Four<Real> const& v, std::size_t axis) {
-    return axis == 0 ? v.x : axis == 1 ? v.y : v.z;
-  }
+  SINEW_INLINE Real velocity(std::size_t axis) const { return of.motions[place].of[axis]; }
 };
 
 /// The weight of a boundary particle is rho_0 / (m sum_l W_kl).
@@ -71,9 +66,9 @@ struct SphDensity {
   using Real = typename D::Real;
   SphView<D> view;
   Law law;
-  Four<Real>*states, *motions;
+  FourOf<Real>*states, *motions;
   SINEW_HD void operator()(int i) const {
-    const Four<Real> at = view.cells.places[i];
+    const FourOf<Real> at = view.cells.places[i];
     Real rho = law.atRest, pressure(0);
     if (view.isFluid(i)) {
       Real around(0);
@@ -81,8 +76,8 @@ struct SphDensity {
       rho = law.mass * around;
       pressure = law.pressureOf(rho);
     }
-    states[i] = {at.x, at.y, at.z, pressure};
-    motions[i].w = rho;
+    states[i] = {{at.of[0], at.of[1], at.of[2], pressure}};
+    motions[i].of[3] = rho;
   }
 };
 
@@ -91,13 +86,13 @@ struct SphNormal {
   using Real = typename D::Real;
   SphView<D> view;
   Law law;
-  Four<Real>* normals;
+  FourOf<Real>* normals;
   SINEW_HD void operator()(int i) const {
     std::array<Real, 3> n{Real(0), Real(0), Real(0)};
     if (view.isFluid(i))
       view.cells.each(i, [&](auto const& p) { law.addNormal(p, SphOther<D>{view, p.other}, n); });
     for (Real& one : n) one *= law.surface.radius;
-    normals[i] = {n[0], n[1], n[2], Real(0)};
+    normals[i] = {{n[0], n[1], n[2], Real(0)}};
   }
 };
 
@@ -110,12 +105,13 @@ struct SphForce {
   Eigen::Vector3d* onBoundary;
   SINEW_HD void operator()(int i) const {
     const int point = view.cells.order[i];
-    const Four<Real> v = view.motions[i];
-    SphParticle<Real> own{{v.x, v.y, v.z}, view.weight(i), v.w, view.states[i].w, view.volume(i)};
+    const FourOf<Real> v = view.motions[i];
+    SphParticle<Real> own{
+        {v.of[0], v.of[1], v.of[2]}, view.weight(i), v.of[3], view.states[i].of[3], view.volume(i)};
     if (law.tense) {
-      const Four<Real> n = view.normals[i];
+      const FourOf<Real> n = view.normals[i];
       own.fluid = Real(view.isFluid(i));
-      own.normal = {n.x, n.y, n.z};
+      own.normal = {n.of[0], n.of[1], n.of[2]};
     }
     std::array<Real, 3> sums{Real(0), Real(0), Real(0)};
     const bool wall = !view.isFluid(i);  // walls do not act on walls
@@ -145,13 +141,13 @@ struct SphVelocity {
   SphView<D> view;
   typename D::Deriv const* velocities;
   Eigen::Vector3d const* ofBoundary;
-  Four<Real>* motions;
+  FourOf<Real>* motions;
   SINEW_HD void operator()(int i) const {
     const int k = view.cells.order[i];
     Real v[3];
     for (int c = 0; c < 3; ++c)
       v[c] = k < view.fluid ? velocities[k][c] : Real(ofBoundary[k - view.fluid][c]);
-    motions[i] = {v[0], v[1], v[2], Real(0)};
+    motions[i] = {{v[0], v[1], v[2], Real(0)}};
   }
 };
 
@@ -159,7 +155,7 @@ template <class D, class Law>
 struct SphEnergy {
   SphView<D> view;
   Law law;
-  SINEW_HD double operator()(int i) const { return view.isFluid(i) ? law.energy(view.motions[i].w) : 0; }
+  SINEW_HD double operator()(int i) const { return view.isFluid(i) ? law.energy(view.motions[i].of[3]) : 0; }
 };
 
 }  // namespace gpu::detail
@@ -176,7 +172,7 @@ struct SphDriver<CudaTypes<H>> {
   static constexpr bool sharesWork = false;
 
   gpu::ParticleCells<D> cells{};
-  gpu::WorkArray<gpu::Four<Real>> states{}, motions{}, normals{};
+  gpu::WorkArray<FourOf<Real>> states{}, motions{}, normals{};
   gpu::WorkArray<Real> weights{};
   gpu::WorkArray<Eigen::Vector3d> boundary{};  // positions, velocities, forces
   std::size_t size = 0, bounds = 0;

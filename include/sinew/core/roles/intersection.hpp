@@ -3,7 +3,10 @@
 
 #include <sinew/core/role.hpp>
 
+#include <array>
+#include <concepts>
 #include <span>
+#include <string_view>
 
 namespace sinew {
 
@@ -35,6 +38,21 @@ struct Contact;           // collision/contact.hpp
 struct CollisionSurface;  // collision/collision_surface.hpp
 template <Shape A, Shape B, class SurfaceA = CollisionSurface, class SurfaceB = SurfaceA>
 struct PrimitivePair;  // collision/proximity.hpp
+
+/// What an intersection method sees of the motion of a step: nothing; that points go on as fast as they are;
+/// or that they go where the free motion of the step takes them, which is known only behind that.
+enum class StepMotion { none, inertia, freeMotion };
+inline constexpr std::array<std::string_view, 3> enum_names(StepMotion) {
+  return {"none", "inertia", "freeMotion"};
+}
+inline constexpr std::array<std::array<std::string_view, 2>, 6> enum_aliases(StepMotion) {
+  return {{{"0", "none"},
+           {"1", "inertia"},
+           {"2", "freeMotion"},
+           {"None", "none"},
+           {"Inertia", "inertia"},
+           {"FreeMotion", "freeMotion"}}};
+}
 
 /// Whether it looks at the motion of a step, so that boxes are around where primitives come from and go to.
 template <class C>
@@ -68,6 +86,11 @@ concept IntersectionMethod =
 
 // Hooks:
 
+/// One that is continuous says what it sees of the motion; else this is inertia.
+template <class C>
+concept ChoosesMotion = requires(C const c) {
+  { c.motion() } -> std::same_as<StepMotion>;
+};
 /// It says which models it compares; else these are all that complement each other (has_pairs in
 /// collision/proximity.hpp).
 template <class C>
@@ -82,6 +105,15 @@ template <class C>
 concept MeetsHulls = requires(C const c) {
   { c.limit() } -> std::convertible_to<double>;
 };
+
+/// What a method sees of the motion of a step.
+template <class C>
+StepMotion motion_seen_by([[maybe_unused]] C const& method) {
+  if constexpr (ChoosesMotion<C>)
+    return method.motion();
+  else
+    return C::continuous ? StepMotion::inertia : StepMotion::none;
+}
 
 template <>
 struct Promise<role::Intersection> : NoPromise {
