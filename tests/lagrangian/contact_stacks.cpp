@@ -3,6 +3,7 @@
 // what forces a step is said to have had.
 #include "lagrangian/contact_scenes.hpp"
 
+#include <memory>
 #include <tuple>
 
 namespace test_contact_stacks {
@@ -231,6 +232,21 @@ TEST_CASE("a spring of the mouse, penalties and multipliers act beside each othe
   CHECK((force_on(manager, "/root/held") + weight + Vector3d(0, 0, 10)).norm() < 1e-6);
   CHECK(sim.at<"hard">().state().position[0][2] == Approx(0.11).epsilon(1e-9));
   CHECK(sim.at<"soft">().state().position[0][2] < 0.11);
+
+  // a copy says the same of its last step, whatever becomes of the scene that made it
+  auto first = std::make_unique<decltype(sim)>(sim);
+  first->animate(dt);
+  const auto expected = first->forces();
+  auto copy = *first;
+  first.reset();
+  const auto forces = copy.forces();
+  REQUIRE(forces.size() == expected.size());
+  CHECK(forces.size() > 4);
+  for (std::size_t i = 0; i < forces.size(); ++i) {
+    CHECK(forces[i].body == expected[i].body);
+    CHECK(forces[i].point == expected[i].point);
+    CHECK(forces[i].wrench.force == expected[i].wrench.force);
+  }
 }
 
 }  // namespace test_contact_stacks

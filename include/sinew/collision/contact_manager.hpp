@@ -106,7 +106,7 @@ struct ContactManager {
   void init(std::string const& where, std::vector<CollisionSurface*> const& all, bool again = false) {
     path = where;
     check_memory(where, text("room for ", capacity, " contacts (capacity)"), capacity);
-    surfaces = all;
+    takeModels(all);
     bodies.clear();
     for (auto const* s : surfaces)
       bodies.push_back(int(std::find_if(surfaces.begin(),
@@ -215,9 +215,11 @@ struct ContactManager {
       if (stays(a.contact)) keptAttachments.push_back(a);
   }
 
+  /// The models that contacts name by number: those of this scene, of which a copy has its own.
+  void takeModels(std::vector<CollisionSurface*> const& all) { surfaces = all; }
+
   /// Updates what the responses remember of the step that has ended; the surfaces are at its end.
-  void settle(std::vector<CollisionSurface*> const& all) {
-    surfaces.assign(all.begin(), all.end());
+  void settle() {
     for (Contact& c : contacts)
       All::visit(responses, c.response, [&](auto const& law) {
         if constexpr (requires { law.settle(c, c.start); }) law.settle(c, displacement(c));

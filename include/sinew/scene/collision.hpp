@@ -77,7 +77,7 @@ struct Collision {
         }
     findListing();
     traverse(root, on<role::CollisionPipeline>([&](auto& pipeline, auto const& scope) {
-               collect(pipeline, modelsOf(pipeline, scope));
+               collect(pipeline, scope);
                if constexpr (ListsModels<std::decay_t<decltype(pipeline)>>) pipeline.choose(scope.path());
                with_first<role::ContactManager>(scope, [&](auto& manager) {
                  manager.init(scope.path(), pipeline.surfaces, again);
@@ -246,20 +246,15 @@ struct Collision {
       pipeline.begun = false;
       auto mark = [&](bool away) {
         bool any = false;
-        int number = 0;
-        pipeline.surfaces.clear();
-        for_each_collision_model(
-            scope, [&]<class D>(auto& model, auto const& s, auto const&, std::type_identity<D>) {
-              CollisionSurface& surface = model.surface;
-              surface.elsewhere = away && detail::is_found_by_states<std::decay_t<decltype(model)>>() &&
-                                  surface.solver >= 0 && surface.settings.simulated;
-              surface.state = &s;
-              surface.number = number++;
-              any = any || surface.elsewhere;
-              pipeline.surfaces.push_back(&surface);
-            });
+        traverse(scope, on<role::CollisionModel>([&](auto& model, auto const&) {
+                   CollisionSurface& surface = model.surface;
+                   surface.elsewhere = away && detail::is_found_by_states<std::decay_t<decltype(model)>>() &&
+                                       surface.solver >= 0 && surface.settings.simulated;
+                   any = any || surface.elsewhere;
+                 }));
         return any;
       };
+      list(pipeline, scope);
       if (!mark(byStates)) return false;
       const bool loop = with_first<role::AnimationLoop>(root, [](auto const&) {});
       std::string_view why = loop ? "" : "nothing solves for multipliers";
@@ -276,15 +271,14 @@ struct Collision {
         byHost(scope.path(), why);
         return false;
       }
-      for_each_collision_model(
-          scope, [&]<class D>(auto& model, auto const& s, auto const& at, std::type_identity<D>) {
-            if (!model.surface.elsewhere) update_vertices<D>(model.surface, s.position, s.velocity);
-            if (model.surface.solver >= 0) model.surface.gravity = at.gravity();
-          });
+      for_each_collision_model(scope,
+                               []<class D>(auto& model, auto const& s, auto const&, std::type_identity<D>) {
+                                 if (!model.surface.elsewhere)
+                                   update_vertices<D>(model.surface, s.position, s.velocity);
+                               });
       pipeline.near.clear();
       pipeline.boxTests = 0;
       with_first<role::ContactManager>(scope, [&](auto& manager) {
-        manager.surfaces = pipeline.surfaces;  // in a copy of the scene they are others
         withIntersection(
             scope, [&](auto const& method) { StateContacts<S>{scope}.begin(pipeline, manager, method); });
       });
@@ -342,8 +336,8 @@ struct Collision {
   template <class Pipeline, class S>
   void lookAtModels(Pipeline& pipeline, S const& scope) const {
     [[maybe_unused]] const auto span = root.span(Phase::positions);
-    collect(pipeline, modelsOf(pipeline, scope));
-    with_first<role::ContactManager>(scope, [&](auto& manager) { manager.settle(pipeline.surfaces); });
+    collect(pipeline, scope);
+    with_first<role::ContactManager>(scope, [](auto& manager) { manager.settle(); });
   }
   // models below a scope whose velocities are those of the free motion
   template <class S>
@@ -438,17 +432,26 @@ struct Collision {
           "and a constraint solver, such as BlockGaussSeidelConstraintSolver, into the root, or take a "
           "response by forces, such as PenalityContactForceField");
   }
-  // where the models are now
+  // The models of this scene, of which a copy has its own, in the order by which contacts name them.
   template <class Pipeline, class S>
-  static void collect(Pipeline& pipeline, S const& scope) {
+  void list(Pipeline& pipeline, S const& scope) const {
     pipeline.surfaces.clear();
-    for_each_collision_model(scope,
-                             [&]<class D>(auto& model, auto const& s, auto const& at, std::type_identity<D>) {
-                               update_vertices<D>(model.surface, s.position, s.velocity);
+    for_each_collision_model(modelsOf(pipeline, scope),
+                             [&](auto& model, auto const& s, auto const& at, auto) {
                                model.surface.state = &s;
                                if (model.surface.solver >= 0) model.surface.gravity = at.gravity();
                                model.surface.number = int(pipeline.surfaces.size());
                                pipeline.surfaces.push_back(&model.surface);
+                             });
+    with_first<role::ContactManager>(scope, [&](auto& manager) { manager.takeModels(pipeline.surfaces); });
+  }
+  // the same, where they are now
+  template <class Pipeline, class S>
+  void collect(Pipeline& pipeline, S const& scope) const {
+    list(pipeline, scope);
+    for_each_collision_model(modelsOf(pipeline, scope),
+                             []<class D>(auto& model, auto const& s, auto const&, std::type_identity<D>) {
+                               update_vertices<D>(model.surface, s.position, s.velocity);
                              });
   }
 

@@ -5,6 +5,7 @@
 #include <sinew/core/data_types.hpp>
 #include <sinew/core/error.hpp>
 #include <sinew/core/wrench.hpp>
+#include <sinew/scene/collision_models.hpp>
 #include <sinew/scene/scope.hpp>
 
 #include <Eigen/Geometry>
@@ -105,9 +106,15 @@ struct ForceReport {
 
   std::vector<ForceOnBody> list() const {
     std::vector<ForceOnBody> all;
-    traverse(root, on<role::ContactManager>([&](auto& manager, auto const&) {
-               for (Contact const& c : manager.contacts) addContact(all, manager.surfaces, c);
-               for (auto const& a : manager.attachments) addAttachment(all, manager.surfaces, a);
+    traverse(root, on<role::ContactManager>([&](auto& manager, auto const& scope) {
+               Surfaces surfaces;
+               with_collision_scope(scope, root, [&](auto const& models) {
+                 traverse(models, on<role::CollisionModel>([&](auto const& model, auto const&) {
+                            surfaces.push_back(&model.surface);
+                          }));
+               });
+               for (Contact const& c : manager.contacts) addContact(all, surfaces, c);
+               for (auto const& a : manager.attachments) addAttachment(all, surfaces, a);
              }));
     traverse(root, on<role::State>([&](auto& state, auto const& scope) {
                if (!scope.mapped() && state.reaction.size() == state.position.size())
@@ -117,7 +124,8 @@ struct ForceReport {
   }
 
  private:
-  using Surfaces = std::vector<CollisionSurface*>;
+  // (of the scene that is asked: those of the manager may be of one that this is a copy of)
+  using Surfaces = std::vector<CollisionSurface const*>;
 
   static void addContact(std::vector<ForceOnBody>& all, Surfaces const& surfaces, Contact const& c) {
     if (c.force.isZero(0)) return;

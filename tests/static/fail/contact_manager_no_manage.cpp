@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: Sinew: a contact manager has no 'void settle(std::vector<CollisionSurface*> const& models)'
+// expect: Sinew: a contact manager has no 'void takeModels(std::vector<CollisionSurface*> const& models)', 'void settle()'
 #include <sinew/collision/brute_force_broad_phase.hpp>
 #include <sinew/collision/bvh_narrow_phase.hpp>
 #include <sinew/collision/contact.hpp>
@@ -20,7 +20,8 @@ struct Counting {
   bool couplingChanged = false;
   bool acts() const { return !contacts.empty(); }
   void init(std::string const&, std::vector<CollisionSurface*> const&, bool) {}
-  void settle(std::vector<CollisionSurface*> const&) {}
+  void takeModels(std::vector<CollisionSurface*> const&) {}
+  void settle() {}
   void add(Contact const& c) { contacts.push_back(c); }
 };
 

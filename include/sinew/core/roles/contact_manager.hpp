@@ -27,12 +27,14 @@ concept HasInitOfModels =
     requires(C c, std::string const& where, std::vector<CollisionSurface*> const& models, bool again) {
       c.init(where, models, again);
     };
-/// At the start of a step: settle, with the models as the last step left them; add, for each contact that is
-/// found; manage, which answers them. `couplingChanged` says whether other vertices meet than before.
+/// At the start of a step: takeModels, with the models of the scene, of which a copy has its own; settle,
+/// where these are as the last step left them; add, for each contact that is found; manage, which answers
+/// them. `couplingChanged` says whether other vertices meet than before.
 template <class C>
 concept TakesContacts =
     requires(C c, std::vector<CollisionSurface*> const& models, Contact const& contact, double dt) {
-      c.settle(models);
+      c.takeModels(models);
+      c.settle();
       c.add(contact);
       c.manage(dt);
       { c.couplingChanged } -> std::convertible_to<bool>;
@@ -58,9 +60,9 @@ struct Promise<role::ContactManager> : NoPromise {
                   "std::vector<CollisionSurface*> const& models, bool again)'; take "
                   "ContactManager<MyResponse>, which has it.");
     static_assert(takes,
-                  "Sinew: a contact manager has no 'void settle(std::vector<CollisionSurface*> const& "
-                  "models)', 'void add(Contact const& contact)', 'void manage(double dt)' or 'bool "
-                  "couplingChanged'; take ContactManager<MyResponse>, which has them.");
+                  "Sinew: a contact manager has no 'void takeModels(std::vector<CollisionSurface*> "
+                  "const& models)', 'void settle()', 'void add(Contact const& contact)', 'void manage(double "
+                  "dt)' or 'bool couplingChanged'; take ContactManager<MyResponse>, which has them.");
     static_assert(may_have<C>(named::addForces<C>) && may_have<C>(named::addDForces<C>),
                   "Sinew: a contact manager has no addForces or no addDForces, the forces of its contacts "
                   "and their change; take ContactManager<MyResponse>, which has them.");
