@@ -30,15 +30,14 @@ auto scene(Mesh const& mesh, Kind const& kind, int refresh) {
   if (kind.name == "contrast")
     for (std::size_t t = 0; t < young.size(); ++t)
       if (int(4 * mesh.positions[std::size_t(mesh.tetrahedra[t][0])][1]) % 2 == 0) young[t] *= 1e4;
-  return solved_body<Vec3d>(
-      mesh,
-      corotational<Vec3d>(young, kind.poisson),
-      damped_euler(),
-      MultigridLinearSolver<>{.iterations = 1000,
-                              .refresh = refresh,
-                              .warp = refresh > 1,
-                              .smootherDegree = kind.degree,
-                              .coarseCycles = kind.cycles});
+  return solved_body<Vec3d>(mesh,
+                            corotational<Vec3d>(young, kind.poisson),
+                            damped_euler(),
+                            MultigridLinearSolver<>{.iterations = 1000,
+                                                    .refresh = refresh,
+                                                    .warp = refresh > 1,
+                                                    .smootherDegree = kind.degree,
+                                                    .coarseCycles = kind.cycles});
 }
 
 LinearSystem system_of(CompressedRowSparseMatrixMat3x3d const& a, Eigen::VectorXd const& b,
