@@ -5,14 +5,16 @@
 
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 namespace sinew {
 
 namespace detail {
 
-/// "sinew::RotationMethod", as the compiler spells it.
+/// "sinew::RotationMethod", as the compiler spells it; "long", which not all spell so.
 template <class T>
 constexpr std::string_view type_name() {
+  if constexpr (std::is_same_v<T, long>) return "long";
   std::string_view whole = __PRETTY_FUNCTION__;
   const std::size_t start = whole.find("T = ") + 4;
   return whole.substr(start, whole.find_first_of(";]", start) - start);
