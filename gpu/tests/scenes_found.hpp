@@ -19,14 +19,14 @@ struct BlockOnFloor {
 
   // off the lines on which points of the block would meet two triangles at once
   MeshTopology floor() const {
-    constexpr int cells = 7;
+    constexpr int across = 7;
     MeshTopology t;
-    for (int j = 0; j <= cells; ++j)
-      for (int i = 0; i <= cells; ++i)
+    for (int j = 0; j <= across; ++j)
+      for (int i = 0; i <= across; ++i)
         t.position.push_back({0.613 * i - 1.237, 0.587 * j - 1.171, -0.01 - 0.002 * ((i + 2 * j) % 3)});
-    for (int j = 0; j < cells; ++j)
-      for (int i = 0; i < cells; ++i) {
-        const int p = j * (cells + 1) + i, q = p + cells + 1;
+    for (int j = 0; j < across; ++j)
+      for (int i = 0; i < across; ++i) {
+        const int p = j * (across + 1) + i, q = p + across + 1;
         t.triangles.push_back({p, p + 1, q + 1});
         t.triangles.push_back({p, q + 1, q});
       }

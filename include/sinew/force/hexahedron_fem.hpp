@@ -143,7 +143,7 @@ struct HexahedronFEM {
 
   // from values on the four edges of a direction to those in the Gauss points across, or the transpose of it
   SINEW_INLINE static void mix(Vec3 (&d)[4]) {
-    const Real a(0.78867513459481288225), b(0.21132486540518711775);  // (1 +- 1/sqrt 3)/2
+    const auto a = Real(0.78867513459481288225), b = Real(0.21132486540518711775);  // (1 +- 1/sqrt 3)/2
     for (int i = 0; i < 3; ++i) {
       const Real p = a * d[0][i] + b * d[1][i], q = b * d[0][i] + a * d[1][i];
       const Real r = a * d[2][i] + b * d[3][i], s = b * d[2][i] + a * d[3][i];
@@ -239,7 +239,7 @@ struct HexahedronFEM {
       for (int c = 0; c < 3; ++c) half(k, c) = Real(0);
       for (int l = 0; l < 3; ++l) {
         const double sum = k == l ? 2 * overlap(across(k, 0)) * overlap(across(k, 1)) : overlap(3 - k - l);
-        const Real entry(sign(first, k) * sign(second, l) * sum);
+        const auto entry = Real(sign(first, k) * sign(second, l) * sum);
         for (int c = 0; c < 3; ++c) half(k, c) += entry * inverse(l, c);
       }
     }

@@ -57,8 +57,8 @@ struct BlockRows {
             law, view, s.first.device(), s.contribution.device(), values.data(), k, b, source == 0});
   }
   /// Adds column c of the blocks on the diagonal, one a node.
-  void addColumn(Deriv const* column, int c) {
-    for_each_index(rows, AddColumn{diagonal.device(), values.data(), column, c});
+  void addColumn(Deriv const* numbers, int c) {
+    for_each_index(rows, AddColumn{diagonal.device(), values.data(), numbers, c});
   }
   /// Adds to the diagonal, one vector a node.
   void addDiagonal(Deriv const* numbers) {

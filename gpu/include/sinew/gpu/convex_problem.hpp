@@ -134,10 +134,10 @@ struct ConvexProblem {
         double* const w = q.compliance + b.first;
         for (int r = 0; r < b.rows; ++r) w[r] = 0;
         for (int e = q.entries.first(k); e < q.entries.last(k); ++e) {
-          Block inverse;
-          invert(q.load(q.diagonal, q.entries.pointOf(e)), inverse);
+          Block mobility;
+          invert(q.load(q.diagonal, q.entries.pointOf(e)), mobility);
           for (int r = 0; r < b.rows; ++r) {
-            const Vector j = q.row(e, r), moved = inverse * j;
+            const Vector j = q.row(e, r), moved = mobility * j;
             w[r] += j[0] * moved[0] + j[1] * moved[1] + j[2] * moved[2];
           }
         }
@@ -212,7 +212,7 @@ struct ConvexProblem {
     }
     // What ConvexUpdates does, where multipliers are taken as they are; false where the host is to do it.
     SINEW_INLINE bool update() {
-      const ConvexSchedule before = now.schedule;
+      const ConvexSchedule last = now.schedule;
       bool forgets = false;
       const auto next = now.schedule.next(
           q.settings,
@@ -237,7 +237,7 @@ struct ConvexProblem {
           },
           forgets);
       if (!System::alone && next != ConvexSchedule::Next::move) {
-        now.schedule = before;
+        now.schedule = last;
         now.ends = Ends::asks;
         return false;
       }
@@ -321,9 +321,9 @@ struct ConvexProblem {
       const int end = own ? lastPair_ : q.entries.lastPair(i);
       for (int k = (own ? firstPair_ : q.entries.firstPair(i)) + lane; k < end; k += lanes) {
         const Vector v = p(q.entries.pointOfPair(k));
-        double const* const block = q.coupling + 9 * std::ptrdiff_t(k);
+        double const* const pair = q.coupling + 9 * std::ptrdiff_t(k);
         for (int r = 0; r < 3; ++r)
-          for (int c = 0; c < 3; ++c) sum[r] += block[3 * r + c] * v[c];
+          for (int c = 0; c < 3; ++c) sum[r] += pair[3 * r + c] * v[c];
       }
     }
     // J p of a block
@@ -403,7 +403,7 @@ struct ConvexProblem {
       team.sync();
       team.each(all, [&](int i) {
         Vector reaction = Vector::Zero();
-        Block sum = q.load(q.diagonal, i), inverse;
+        Block sum = q.load(q.diagonal, i), mobility;
         eachEntry(i, [&](int e, ConstraintBlock const& b) { addForce(e, b, q.multipliers, reaction); });
         for (int k = q.entries.firstPair(i); k < q.entries.lastPair(i); ++k) {
           const int own = q.entries.ownOf(k), other = q.entries.otherOf(k);
@@ -411,19 +411,19 @@ struct ConvexProblem {
           for (int c = 0; c < 9; ++c) q.coupling[9 * std::ptrdiff_t(k) + c] = coupled(c / 3, c % 3);
           if (own == other) sum += coupled;
         }
-        invert(sum, inverse);
-        const Vector momentum = vector_at(q.momentum, i), gradient = momentum - reaction;
-        const Vector steepest = -(inverse * gradient), v = vector_at(q.velocity, i),
-                     answer = inverse * reaction, rest = q.system.restOf(i);
-        q.store(q.inverse, i, inverse);
-        put_vector(q.gradient, i, gradient);
-        put_vector(q.newton.residual, i, -gradient);
+        invert(sum, mobility);
+        const Vector p = vector_at(q.momentum, i), slope = p - reaction;
+        const Vector steepest = -(mobility * slope), v = vector_at(q.velocity, i),
+                     answer = mobility * reaction, rest = q.system.restOf(i);
+        q.store(q.inverse, i, mobility);
+        put_vector(q.gradient, i, slope);
+        put_vector(q.newton.residual, i, -slope);
         put_vector(q.newton.scaled, i, steepest);
         put_vector(q.newton.solution, i, Vector(Vector::Zero()));
         for (int c = 0; c < 3; ++c) {
-          local[0] += v[c] * (momentum[c] + rest[c]);
+          local[0] += v[c] * (p[c] + rest[c]);
           local[1] += reaction[c] * answer[c];
-          local[2] -= gradient[c] * steepest[c];
+          local[2] -= slope[c] * steepest[c];
         }
       });
       team.template reduce<3>(local);
@@ -456,7 +456,7 @@ struct ConvexProblem {
             for (int k = 0; k < 3; ++k) sum += q.inverse[(3 * c + k) * std::ptrdiff_t(all) + i] * r[k];
             return sum;
           },
-          [](double curvature) { return curvature > 0; });
+          [](double c) { return c > 0; });
       found.conjugateGradients += gradients.iterations;
       if (!gradients.any) return false;
       // A dv = -grad - residual - J' G J dv
@@ -464,13 +464,13 @@ struct ConvexProblem {
       auto step = [&](int j) { return vector_at(q.newton.solution, j); };
       team.each(all, [&](int i) {
         double terms[3] = {0, 0, 0};
-        const Vector move = step(i), momentum = vector_at(q.momentum, i),
+        const Vector move = step(i), p = vector_at(q.momentum, i),
                      left = vector_at(q.gradient, i) + vector_at(q.newton.residual, i);
         addTerms(i, 0, 1, step, terms);
         Vector product;
         for (int c = 0; c < 3; ++c) {
           product[c] = -(terms[c] + left[c]);
-          line[0] += move[c] * momentum[c];
+          line[0] += move[c] * p[c];
           line[1] += move[c] * product[c];
         }
         put_vector(q.newton.product, i, product);
@@ -496,9 +496,9 @@ struct ConvexProblem {
           found.lineSearches);
       team.each(all, [&](int i) {
         const Vector v = vector_at(q.velocity, i) + t * vector_at(q.newton.solution, i),
-                     momentum = vector_at(q.momentum, i) + t * vector_at(q.newton.product, i);
+                     p = vector_at(q.momentum, i) + t * vector_at(q.newton.product, i);
         put_vector(q.velocity, i, v);
-        put_vector(q.momentum, i, momentum);
+        put_vector(q.momentum, i, p);
       });
       team.each(q.blocks, [&](int k) {
         ConstraintBlock const& b = q.block[k];

@@ -108,11 +108,11 @@ struct MultigridTeam {
         team.each(n, [&](int i) {
           for (int c = 0; c < 3; ++c) {
             const Real along = k == 0 ? z[i][c] : z[i][c] + b * p[i][c];
-            const Real product = k == 0 ? s[i][c] : s[i][c] + b * q[i][c];
+            const Real pushed = k == 0 ? s[i][c] : s[i][c] + b * q[i][c];
             p[i][c] = along;
-            q[i][c] = product;
+            q[i][c] = pushed;
             x[i][c] += alpha * along;
-            const Real left = r[i][c] - alpha * product;
+            const Real left = r[i][c] - alpha * pushed;
             r[i][c] = left;
             next[0] += double(left) * double(left);
           }

@@ -48,7 +48,7 @@ class ParticleCells {
       using std::sqrt;
       const FourOf<Real> own = places[place];
       const Range* range = ranges + cell[place];
-      for (int row = 0; row < 9; ++row, range += stride) {
+      for (int line = 0; line < 9; ++line, range += stride) {
         const Range r = *range;
         for (int j = r.begin; j < r.end; ++j) {
           const FourOf<Real> other = places[j];

@@ -358,10 +358,10 @@ class FusedStep {
     Real const* const vec = vector();
     for (int c = 0; c < 3; ++c) product[c] = 0;
     // all that a thread keeps are loaded before the first is used
-    Real x[kept > 0 ? kept : 1][3] = {};
+    Real entries[kept > 0 ? kept : 1][3] = {};
     for (int k = 0; k < kept; ++k)
-      if (k < o.used) team.load(vec + Team::stride * o.place[k], x[k]);
-    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, x[k], product);
+      if (k < o.used) team.load(vec + Team::stride * o.place[k], entries[k]);
+    for (int k = 0; k < kept; ++k) addEntry([&](int c) { return o.block[k][c]; }, entries[k], product);
     for (int e = o.from; e < o.to; e += lanes) {
       Real y[3];
       team.load(vec + Team::stride * column[e], y);
