@@ -48,7 +48,7 @@ cutting::Body body_of(Sim& sim, std::string const& path) {
 
 }  // namespace
 
-TEST_CASE("an incision opens under the tension of the skin") {
+TEST_CASE("an incision opens under the tension of the skin", "[long]") {
   auto [sim, dt] = started(scene_of("incision.scn"));
   const auto before = body_of(sim, "skin");
   while (sim.time() < 2.5) sim.animate(dt);

@@ -21,7 +21,8 @@ std::vector<std::string> scenes() {
   return all;
 }
 
-TEST_CASE("every field of every scene of the examples has a value that it takes, and outlives wrong ones") {
+TEST_CASE("every field of every scene of the examples has a value that it takes, and outlives wrong ones",
+          "[long]") {
   long seen = 0, set = 0, wrong = 0;
   for (std::string const& path : scenes()) {
     INFO(path);
