@@ -41,7 +41,7 @@ SOLVERS = {"cg": '<CGLinearSolver iterations="2000" tolerance="1e-12"/>',
 
 def mapped(solver):
     """A bar of hexahedra, with a skin inside its elements that touches a plane and has springs, tips that follow the skin and
-    are pulled, and a copy that touches a sphere and is held."""
+    are pulled, a copy that touches a sphere and is held, and a surface that is only looked at."""
     points, cells = grid((9, 3, 3), (0, 0, 0), (4, 1, 1))
     skin, faces = grid((12, 4, 4), (0.05, 0.1, 0.1), (3.9, 0.9, 0.9))
     triangles = border(faces)
@@ -77,6 +77,10 @@ def mapped(solver):
       <IdentityMapping/>
       <SphereForceField center="3 -0.6 0.5" radius="0.75" stiffness="1000" damping="1"/>
       <RestShapeSpringsForceField points="8 17 80" stiffness="500"/>
+    </Node>
+    <Node name="look">
+      <OglModel position="{words(skin)}" triangles="{words(triangles)}"/>
+      <BarycentricMapping/>
     </Node>
   </Node>
 """)

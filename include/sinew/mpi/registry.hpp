@@ -10,6 +10,7 @@
 #include <sinew/mpi/simulation.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
+#include <sinew/visual/visual_model.hpp>
 
 #include <string>
 
@@ -32,6 +33,8 @@ using DistributableBodies =
              UniformMass<Vec3d>, DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver,
              CGLinearSolver<>, PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>,
              SubsetMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>>;
+using LookedAt = Registry<VisualModel, IdentityMapping<Vec3d, Vec3f>, SubsetMapping<Vec3d, Vec3f>,
+                          BarycentricMapping<Vec3d, Vec3f>>;
 using DistributableForces =
     Registry<TetrahedronFEMForceField<Vec3d>, HexahedronFEMForceField<Vec3d>, MeshSpringForceField<Vec3d>,
              StiffSpringForceField<Vec3d>, PlaneForceField<Vec3d>, SphereForceField<Vec3d>,
@@ -48,8 +51,8 @@ using DistributableContact =
     Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
              LocalMinDistance, DefaultContactManager, PointCollisionModel<Vec3d>, LineCollisionModel<Vec3d>,
              TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>>;
-struct Distributable
-    : Registry<DistributableBodies, DistributableForces, DistributableConstraints, DistributableContact> {
+struct Distributable : Registry<DistributableBodies, LookedAt, DistributableForces, DistributableConstraints,
+                                DistributableContact> {
   using Distribution = mpi::Distribution;
 };
 

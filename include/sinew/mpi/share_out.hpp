@@ -80,6 +80,8 @@ constexpr bool is_distributed() {
     return false;
   else if constexpr (HasRole<C, role::Context> || HasRole<C, role::Engine>)
     return true;  // a value for all points, or data that are there before the scene starts
+  else if constexpr (HasRole<C, role::VisualModel>)
+    return true;  // in the whole scene alone
   else if constexpr (requires { requires C::matrixFree; })
     return C::className == std::string_view("CGLinearSolver");
   else
@@ -112,7 +114,7 @@ void refuse_undistributed(RootScope const& root) {
 /// common, as those of an element have, where one element of the child is carried by them; and a rank has
 /// all elements of the child that come back to a point of its own. Of a state whose points collide each rank
 /// has all points, and those that carry them, so that all ranks find the same contacts. What no solver moves
-/// is on each rank as a whole.
+/// is on each rank as a whole. Visual models are empty: they are looked at in the whole scene.
 template <class RootScope>
 class ShareOut {
  public:
@@ -127,6 +129,7 @@ class ShareOut {
       if (!s.parent) share(s);
     shareMapped();
     traverse(root_, on<AnyRole>([&](auto& c, auto const& scope) { follow(c, scope); }));
+    emptyVisuals();
     for (State& s : states_)
       to_.add(Halo(std::move(s.part), to_.ranks().rank(), s.bytes), s.parent && s.moves);
   }
@@ -175,6 +178,12 @@ class ShareOut {
         if (s.topologies[t] == address) return s.part.topologies[t];
     return none();
   }
+  // whether the points of this node are to be looked at only
+  template <class S>
+  static bool isVisual(S const& scope) {
+    return !with_first<role::State>(scope, [](auto&) {}) &&
+           with_first<role::VisualModel>(scope, [](auto&) {});
+  }
   bool isOwn(State const& s, Index point) const {
     return s.part.parts[std::size_t(point)] == to_.ranks().rank();
   }
@@ -191,7 +200,7 @@ class ShareOut {
     });
     traverse(root_, on<role::Mapping>([&](auto& mapping, auto const& scope) { link(mapping, scope); }));
     traverse(root_, on<role::Topology>([&](auto const& t, auto const& at) {
-               State* const of = find(at.pointsAddress());
+               State* const of = isVisual(at) ? nullptr : find(at.pointsAddress());
                if (!of) return;
                if constexpr (!editable_topology<std::decay_t<decltype(t)>>)
                  if (of->moves)
@@ -352,6 +361,24 @@ class ShareOut {
         });
       }
     }
+  }
+
+  // Visual models have no vertices, and their mappings and links nothing to move.
+  void emptyVisuals() {
+    traverse(root_, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if (!isVisual(scope)) return;
+               mapping = M{};
+               if constexpr (requires(Renumbering const& points) { mapping.shareOut(points, points); })
+                 mapping.shareOut({}, {});
+             }));
+    traverse(root_, on<role::VisualModel>([](auto& visual, auto const&) {
+               visual = std::decay_t<decltype(visual)>{};
+             }));
+    if constexpr (requires { root_.node.live.targets; })
+      std::erase_if(root_.node.live.targets, [](auto const& target) {
+        return target.entry && target.entry->component.template is<role::VisualModel>();
+      });
   }
 
   // All ranks have the same scene, and the same version of Sinew.
