@@ -171,7 +171,7 @@ class Pictures {
     mpi::Halo const& halo = sim.halo(s);
     body.mesh.positions.clear();
     for (const std::size_t i : body.points) {
-      body.mesh.positions.push_back(s.position[i]);
+      body.mesh.positions.push_back(State::DataTypes::center(s.position[i]));
       velocity.values.insert(velocity.values.end(), s.velocity[i].data(), s.velocity[i].data() + 3);
       rank.values.push_back(double(halo.parts[std::size_t(halo.numbers[i])]));
       number.values.push_back(double(halo.numbers[i]));

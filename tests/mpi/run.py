@@ -103,10 +103,11 @@ same_on_ranks(scene, ["bar"], 10, 1e-8, 1e-3)
 alike = {}
 for name, bodies, steps, tolerance, moved in (("mapped", ["bar", "bar/skin", "bar/skin/tips", "bar/copy"], 6, 1e-7, 1e-3),
                                               ("constraints", ["bar"], 6, 1e-7, 1e-2),
-                                              ("contact", ["bodies/lower", "bodies/upper", "bodies/upper/surface"], 10, 1e-7, 1e-3)):
+                                              ("contact", ["bodies/lower", "bodies/upper", "bodies/upper/surface"], 10, 1e-7, 1e-3),
+                                              ("rigid", ["bodies/soft", "bodies/rigids", "bodies/rigids/carried"], 10, 1e-7, 1e-4)):
     for solver in "cg", "petsc":
         found = same_on_ranks(made[f"{name}_{solver}"], bodies, steps, tolerance, moved, 4 if solver == "cg" else 2,
-                              ["bar/look"] if name == "mapped" else [])
+                              {"mapped": ["bar/look"], "rigid": ["bodies/rigids/carried/look"]}.get(name, []))
         for body in bodies:
             assert distance(found[body][1], alike.setdefault((name, body), found[body][1])) < tolerance
 

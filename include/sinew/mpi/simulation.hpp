@@ -102,8 +102,9 @@ class DistributedSimulation {
                    with_states_of(
                        c, at, [&](auto& s) { found[0] += c.kineticEnergy(s.position, s.velocity); });
                  }));
-        traverse(scopeOf(*whole_), on<role::ForceField>([&](auto& c, auto const& at) {
-                   with_states_of(c, at, [&](auto& s) { found[1] += potential_energy(c, s.position); });
+        traverse(scopeOf(*whole_),
+                 on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& at) {
+                   with_states_of(c, at, [&](auto&... s) { found[1] += potential_energy(c, s.position...); });
                  }));
       }
       ranks_->broadcast(found, "the energies of the scene, from rank 0");
