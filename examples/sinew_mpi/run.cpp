@@ -90,7 +90,8 @@ class Farewell {
   }
 };
 
-// The bodies over time, for ParaView: each rank writes the elements whose first point is its own.
+// The bodies over time, for ParaView: each rank writes the elements whose first point is its own, and rank 0
+// what is only looked at.
 class Pictures {
  public:
   Pictures(std::string folder, int rank, int ranks)
@@ -108,6 +109,20 @@ class Pictures {
                  write(sim, s, body);
                }));
     });
+    if (!shows(sim)) return;
+    sim.look([&](auto const& whole) {
+      traverse(whole, on<role::VisualModel>([&](auto& visual, auto const& at) {
+                 auto& series = looks_.try_emplace(at.path(), folder_ + at.path()).first->second;
+                 series.add(sim.time(), visual.current());
+               }));
+    });
+  }
+  /// Whether there is something to look at that no state has.
+  template <class Simulation>
+  static bool shows(Simulation& sim) {
+    bool found = false;
+    traverse(sim.scope(), on<role::VisualModel>([&](auto&, auto const&) { found = true; }));
+    return found;
   }
 
  private:
@@ -120,6 +135,7 @@ class Pictures {
   std::string folder_;
   int rank_, ranks_;
   std::map<std::string, Body> bodies_{};
+  std::map<std::string, io::PvdSeries> looks_{};
 
   template <class Simulation, class State, class At>
   void describe(Simulation& sim, State const& s, At const& at, Body& body) {
@@ -155,7 +171,7 @@ class Pictures {
     mpi::Halo const& halo = sim.halo(s);
     body.mesh.positions.clear();
     for (const std::size_t i : body.points) {
-      body.mesh.positions.push_back(s.position[i]);
+      body.mesh.positions.push_back(State::DataTypes::center(s.position[i]));
       velocity.values.insert(velocity.values.end(), s.velocity[i].data(), s.velocity[i].data() + 3);
       rank.values.push_back(double(halo.parts[std::size_t(halo.numbers[i])]));
       number.values.push_back(double(halo.numbers[i]));
@@ -293,7 +309,7 @@ int run_on_ranks(RunOptions const& options, std::shared_ptr<mpi::Communicator> c
   }
   Farewell farewell(*ranks);
   mpi::DistributedSimulation sim{std::move(read->root), ranks};
-  if (!options.save.empty()) sim.keepWhole();
+  if (!options.save.empty() || (!options.vtk.empty() && Pictures::shows(sim))) sim.keepWhole();
   sim.init([](auto const&) {}, read->time, read->step);
   const long steps = options.duration.time > 0 ? std::max(1L, std::lround(options.duration.time / dt))
                                                : options.duration.steps;

@@ -54,14 +54,16 @@ TEST_CASE(
   const TopologyView view{.tetrahedra = mesh.tetrahedra};
   const mpi::JoinedPoints joined{{0, Index(n) - 1}, {2, 30, 50, 60}};
   const std::vector<Index> everywhere{6, 7, 40};
+  const std::vector<mpi::NeededPoint> needed{{6}, {7}, {40}, {3, 1}};
   const auto parts = mpi::parts_of_points("here", n, {&view, 1}, size, joined);
   std::vector<mpi::Part> all;
   for (int rank = 0; rank < size; ++rank)
-    all.push_back(mpi::part_of("here", parts, {&view, 1}, rank, size, joined, everywhere));
+    all.push_back(mpi::part_of("here", parts, {&view, 1}, rank, size, joined, needed));
   for (int rank = 0; rank < size; ++rank) {
     mpi::Part const& part = all[std::size_t(rank)];
     const std::set<Index> here(part.points.kept.begin(), part.points.kept.end());
     for (const Index i : everywhere) CHECK(here.contains(i));
+    if (rank == 1) CHECK(here.contains(3));
     for (auto const& points : joined)
       if (std::any_of(points.begin(), points.end(), [&](Index i) { return parts[std::size_t(i)] == rank; }))
         for (const Index i : points) CHECK(here.contains(i));

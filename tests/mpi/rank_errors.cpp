@@ -2,6 +2,9 @@
 #include "catch.hpp"
 #include "mpi/ranks.hpp"
 
+#include <sinew/lagrangian/fixed_lagrangian_constraint.hpp>
+#include <sinew/lagrangian/free_motion_animation_loop.hpp>
+
 #include <chrono>
 #include <thread>
 
@@ -89,6 +92,18 @@ TEST_CASE("scenes that cannot be shared out are refused before the run") {
               "/root: CGLinearSolver<CompressedRowSparseMatrixMat3x3d>",
               "/root: DiagonalVelocityDampingForceField<Vec3d>"}));
   CHECK(error.find("TetrahedronFEM") == std::string::npos);
+
+  auto constrained = node<"root">(
+      FreeMotionAnimationLoop{}, MechanicalObject<Vec3d>{}, FixedLagrangianConstraint<Vec3d>{.fixAll = true});
+  const NoScope above{};
+  error = error_of([&] {
+    mpi::refuse_undistributed(ScopeOf<decltype(constrained), NoScope>::type{constrained, above});
+  });
+  INFO(error);
+  CHECK(says(error,
+             {"/root: FreeMotionAnimationLoop, whose multipliers one process has; take springs",
+              "/root: FixedLagrangianConstraint<Vec3d>, whose multipliers one process has"}));
+  CHECK(error.find("MechanicalObject") == std::string::npos);
 
   if (world.size > 1) {
     error =

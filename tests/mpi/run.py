@@ -63,12 +63,18 @@ def positions(stem):
     return len(pieces), cells, [at[i] for i in range(len(at))]
 
 
+def seen(stem):
+    """Of the vertices that rank 0 has written of a visual model."""
+    x = values(pathlib.Path(stem + ".vtu").read_text(), "Points", "d")
+    return [tuple(x[i:i + 3]) for i in range(0, len(x), 3)]
+
+
 def distance(a, b):
     assert len(a) == len(b), f"{len(a)} and {len(b)} points"
     return max(abs(x - y) for p, q in zip(a, b) for x, y in zip(p, q))
 
 
-def same_on_ranks(path, bodies, steps, tolerance, moved, most=4):
+def same_on_ranks(path, bodies, steps, tolerance, moved, most=4, looks=()):
     expected = {}
     for ranks in range(1, most + 1):
         out = f"{folder}/{pathlib.Path(path).stem}{ranks}"
@@ -84,6 +90,11 @@ def same_on_ranks(path, bodies, steps, tolerance, moved, most=4):
             if ranks == 1:
                 far = distance(x, positions(f"{out}/root/{body}_0000")[2])
                 assert far > moved, f"{path}: {body} has moved by {far} m only"
+        for look in looks:
+            x = seen(f"{out}/root/{look}_0001")
+            error = distance(x, expected.setdefault(look, x))
+            assert error < max(tolerance, 1e-6), f"{path}, {look}: {ranks} ranks: vertices differ by {error} m"
+            assert distance(x, seen(f"{out}/root/{look}_0000")) > moved, f"{path}: {look} has not moved"
     return expected
 
 
@@ -92,9 +103,11 @@ same_on_ranks(scene, ["bar"], 10, 1e-8, 1e-3)
 alike = {}
 for name, bodies, steps, tolerance, moved in (("mapped", ["bar", "bar/skin", "bar/skin/tips", "bar/copy"], 6, 1e-7, 1e-3),
                                               ("constraints", ["bar"], 6, 1e-7, 1e-2),
-                                              ("contact", ["bodies/lower", "bodies/upper", "bodies/upper/surface"], 10, 1e-7, 1e-3)):
+                                              ("contact", ["bodies/lower", "bodies/upper", "bodies/upper/surface"], 10, 1e-7, 1e-3),
+                                              ("rigid", ["bodies/soft", "bodies/rigids", "bodies/rigids/carried"], 10, 1e-7, 1e-4)):
     for solver in "cg", "petsc":
-        found = same_on_ranks(made[f"{name}_{solver}"], bodies, steps, tolerance, moved, 4 if solver == "cg" else 2)
+        found = same_on_ranks(made[f"{name}_{solver}"], bodies, steps, tolerance, moved, 4 if solver == "cg" else 2,
+                              {"mapped": ["bar/look"], "rigid": ["bodies/rigids/carried/look"]}.get(name, []))
         for body in bodies:
             assert distance(found[body][1], alike.setdefault((name, body), found[body][1])) < tolerance
 
@@ -102,6 +115,7 @@ for name, bodies, steps, tolerance, moved in (("mapped", ["bar", "bar/skin", "ba
 bar = made["mapped_cg"]
 whole = f"{folder}/whole.scn"
 well(2, bar, "--steps", 8, "--save", whole)
+assert pathlib.Path(whole).read_text().count("<VisualModel ") == 1, "a checkpoint has no visual model"
 half = f"{folder}/half.scn"
 well(2, bar, "--steps", 5, "--save", half)
 for ranks, exact in (2, True), (3, False), (1, False):
@@ -167,7 +181,7 @@ def refused(ranks, status, words, *arguments):
         assert said.count(word) == 1, f"'{word}' should be said once: {said}"
 
 
-refused(2, 1, ["<SparseGridTopology> is not distributed yet", "<VisualModel> is not distributed yet"], other)
+refused(2, 1, ["<SparseGridTopology> is not distributed yet"], other)
 refused(2, 2, ["--threads is not there with --mpi"], scene, "--threads", "2")
 refused(2, 1, ["no_such_scene.scn"], "no_such_scene.scn")
 refused(2, 3, ["has not converged in 2 iterations"], scene, "--set", "bar/PetscLinearSolver.iterations=2")

@@ -41,7 +41,7 @@ SOLVERS = {"cg": '<CGLinearSolver iterations="2000" tolerance="1e-12"/>',
 
 def mapped(solver):
     """A bar of hexahedra, with a skin inside its elements that touches a plane and has springs, tips that follow the skin and
-    are pulled, and a copy that touches a sphere and is held."""
+    are pulled, a copy that touches a sphere and is held, and a surface that is only looked at."""
     points, cells = grid((9, 3, 3), (0, 0, 0), (4, 1, 1))
     skin, faces = grid((12, 4, 4), (0.05, 0.1, 0.1), (3.9, 0.9, 0.9))
     triangles = border(faces)
@@ -77,6 +77,10 @@ def mapped(solver):
       <IdentityMapping/>
       <SphereForceField center="3 -0.6 0.5" radius="0.75" stiffness="1000" damping="1"/>
       <RestShapeSpringsForceField points="8 17 80" stiffness="500"/>
+    </Node>
+    <Node name="look">
+      <OglModel position="{words(skin)}" triangles="{words(triangles)}"/>
+      <BarycentricMapping/>
     </Node>
   </Node>
 """)
@@ -155,6 +159,55 @@ def contact(solver):
 """)
 
 
+def rigid(solver):
+    """A bar on which a rigid body hangs by springs, and a second one on that by a joint; the first one carries a surface that
+    falls on a floor, and one that is only looked at."""
+    points, cells = grid((7, 3, 3), (0, 1, 0), (3, 2, 1))
+    box, sides = grid((2, 2, 2), (-0.5, -0.5, -0.5), (0.5, 0.5, 0.5))
+    box = [[x + 0.02 * math.sin(17 * i + 5 * c) for c, x in enumerate(p)] for i, p in enumerate(box)]
+    return scene("0 -9.81 0", 0.01, f"""
+  <DefaultPipeline/>
+  <BruteForceBroadPhase/>
+  <BVHNarrowPhase/>
+  <MinProximityIntersection alarmDistance="0.1" contactDistance="0.05"/>
+  <DefaultContactManager response="PenalityContactForceField"/>
+  <Node name="floor">
+    <MeshTopology triangles="0 2 1  0 3 2"/>
+    <MechanicalObject position="-9 0.9 -9  9 0.9 -9  9 1 9  -9 1 9"/>
+    <TriangleCollisionModel moving="false" simulated="false" contactStiffness="300"/>
+  </Node>
+  <Node name="bodies">
+    <EulerImplicitSolver rayleighStiffness="0.02"/>
+    {SOLVERS[solver]}
+    <StiffSpringForceField object1="@soft" object2="@rigids/carried" spring="6 0 20000 10 0.5  20 2 20000 10 0.5  48 4 20000 10 0.5  62 6 20000 10 0.5"/>
+    <Node name="soft">
+      <MeshTopology name="mesh" position="{words(points)}" hexahedra="{words(cells)}"/>
+      <MechanicalObject/>
+      <DiagonalMass massDensity="300"/>
+      <HexahedronFEMForceField youngModulus="2e5" poissonRatio="0.3"/>
+      <BoxROI name="held" box="-0.1 0.9 -0.1  0.1 2.1 1.1" position="@mesh.position"/>
+      <FixedConstraint indices="@held.indices"/>
+    </Node>
+    <Node name="rigids">
+      <MechanicalObject template="Rigid3d" position="4 1.5 0.5 0 0 0 1  5.5 1.6 0.5 0 0 0 1" velocity="0 0 0 0 0 0.4  0 0 0 0.5 0 0"/>
+      <UniformMass totalMass="40"/>
+      <JointSpringForceField spring="BEGIN_SPRING 0 1 FREE_AXIS 0 0 0 0 0 1 KS_T 0 20000 KS_R 0 3000 REST_T 1.5 0.1 0 END_SPRING"/>
+      <Node name="carried">
+        <MeshTopology triangles="{words(border(sides))}"/>
+        <MechanicalObject position="{words(box)}"/>
+        <RigidMapping index="0"/>
+        <PointCollisionModel contactStiffness="10" contactDamping="1"/>
+        <TriangleCollisionModel contactStiffness="10"/>
+        <Node name="look">
+          <OglModel position="{words(box)}" triangles="{words(border(sides))}"/>
+          <IdentityMapping/>
+        </Node>
+      </Node>
+    </Node>
+  </Node>
+""")
+
+
 def gmsh(n, low, high):
     """A grid of hexahedra as a Gmsh file of version 2.2."""
     points, cells = grid(n, low, high)
@@ -201,7 +254,7 @@ def write(folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     all = {}
-    for make in mapped, constraints, contact:
+    for make in mapped, constraints, contact, rigid:
         for solver in SOLVERS:
             path = folder / f"{make.__name__}_{solver}.scn"
             path.write_text(make(solver))

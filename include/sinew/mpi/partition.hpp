@@ -35,13 +35,14 @@ using JoinedPoints = std::vector<std::vector<Index>>;
 
 /// Shares out n points among so many ranks, with few elements between points of different ranks: METIS
 /// (Karypis, Kumar 1998), on the graph of points that have an element in common, or are joined otherwise. The
-/// same in each run. Throws Error where there are fewer points or elements than ranks.
+/// same in each run. Throws Error where there are fewer points or elements than ranks; `mayHaveNone`: ranks
+/// need no elements.
 inline std::vector<int> parts_of_points(std::string_view where, std::size_t n,
                                         std::span<TopologyView const> topologies, int ranks,
-                                        JoinedPoints const& together = {}) {
+                                        JoinedPoints const& together = {}, bool mayHaveNone = false) {
   std::size_t elements = together.size();
   detail::for_each_element(topologies, [&](auto const&) { ++elements; });
-  if (n < std::size_t(ranks) || elements < std::size_t(ranks))
+  if (n < std::size_t(ranks) || (elements < std::size_t(ranks) && !mayHaveNone))
     throw Error(where,
                 text(n,
                      " points with ",
@@ -113,10 +114,16 @@ struct Part {
   std::size_t owned(int rank) const { return ownedBy[std::size_t(rank)]; }
 };
 
-/// `everywhere`: points that each rank has, as ghosts where they are not its own.
+/// A point that a rank has, as a ghost where it is not its own; rank -1: each of them.
+struct NeededPoint {
+  Index point;
+  int rank = -1;
+};
+
+/// `needed`: points that ranks have beside those of their elements. `mayHaveNone`: ranks need no elements.
 inline Part part_of(std::string_view where, std::vector<int> parts, std::span<TopologyView const> topologies,
                     int rank, int ranks, JoinedPoints const& together = {},
-                    std::span<Index const> everywhere = {}) {
+                    std::span<NeededPoint const> needed = {}, bool mayHaveNone = false) {
   Part part;
   const std::size_t n = parts.size();
   part.ownedBy.assign(std::size_t(ranks), 0);
@@ -145,17 +152,19 @@ inline Part part_of(std::string_view where, std::vector<int> parts, std::span<To
   };
   detail::for_each_element(topologies, take);
   for (auto const& points : together) take(points);
-  // (who sends also receives: a rank without a point that all have waits for nobody, and is sent nothing)
-  for (const Index i : everywhere) {
-    if (parts[std::size_t(i)] != rank) {
+  // (who receives need not send: a rank without a point that others have is in their lists all the same)
+  for (auto const& [i, by] : needed) {
+    const int owner = parts[std::size_t(i)];
+    if (owner != rank) {
+      if (by >= 0 && by != rank) continue;
       ghost[std::size_t(i)] = true;
-      part.sent[parts[std::size_t(i)]];
+      part.sent[owner];
     } else {
-      for (int r = 0; r < ranks; ++r)
+      for (int r = by < 0 ? 0 : by; r < (by < 0 ? ranks : by + 1); ++r)
         if (r != rank) sends.emplace_back(r, number[std::size_t(i)]);
     }
   }
-  for (int r = 0; r < ranks; ++r)
+  for (int r = 0; r < ranks && !mayHaveNone; ++r)
     if (!elementsOf[std::size_t(r)])
       throw Error(where,
                   text("rank ",

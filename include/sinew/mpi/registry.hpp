@@ -10,6 +10,7 @@
 #include <sinew/mpi/simulation.hpp>
 #include <sinew/runtime/read_scene.hpp>
 #include <sinew/runtime/runtime.hpp>
+#include <sinew/visual/visual_model.hpp>
 
 #include <string>
 
@@ -32,10 +33,18 @@ using DistributableBodies =
              UniformMass<Vec3d>, DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver,
              CGLinearSolver<>, PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>,
              SubsetMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>>;
+using LookedAt = Registry<VisualModel, IdentityMapping<Vec3d, Vec3f>, SubsetMapping<Vec3d, Vec3f>,
+                          BarycentricMapping<Vec3d, Vec3f>, RigidMapping<Rigid3d, Vec3f>>;
+using DistributableRigids =
+    Registry<MechanicalObject<Rigid3d>, UniformMass<Rigid3d>, RigidMapping<Rigid3d, Vec3d>,
+             JointSpringForceField<Rigid3d>, JointSpringForceField<Rigid3d, Linked>,
+             ConstantForceField<Rigid3d>, RestShapeSpringsForceField<Rigid3d>,
+             UniformVelocityDampingForceField<Rigid3d>, FixedConstraint<Rigid3d>,
+             PartialFixedConstraint<Rigid3d>>;
 using DistributableForces =
     Registry<TetrahedronFEMForceField<Vec3d>, HexahedronFEMForceField<Vec3d>, MeshSpringForceField<Vec3d>,
-             StiffSpringForceField<Vec3d>, PlaneForceField<Vec3d>, SphereForceField<Vec3d>,
-             ConstantForceField<Vec3d>, RestShapeSpringsForceField<Vec3d>,
+             StiffSpringForceField<Vec3d>, StiffSpringForceField<Vec3d, Linked>, PlaneForceField<Vec3d>,
+             SphereForceField<Vec3d>, ConstantForceField<Vec3d>, RestShapeSpringsForceField<Vec3d>,
              UniformVelocityDampingForceField<Vec3d>>;
 using DistributableConstraints =
     Registry<FixedConstraint<Vec3d>, PartialFixedConstraint<Vec3d>, FixedPlaneConstraint<Vec3d>,
@@ -48,8 +57,8 @@ using DistributableContact =
     Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
              LocalMinDistance, DefaultContactManager, PointCollisionModel<Vec3d>, LineCollisionModel<Vec3d>,
              TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>>;
-struct Distributable
-    : Registry<DistributableBodies, DistributableForces, DistributableConstraints, DistributableContact> {
+struct Distributable : Registry<DistributableBodies, LookedAt, DistributableRigids, DistributableForces,
+                                DistributableConstraints, DistributableContact> {
   using Distribution = mpi::Distribution;
 };
 

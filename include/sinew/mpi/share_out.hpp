@@ -40,6 +40,7 @@ inline constexpr auto distributed_classes =
                                      "HexahedronFEMForceField",
                                      "MeshSpringForceField",
                                      "StiffSpringForceField",
+                                     "JointSpringForceField",
                                      "PlaneForceField",
                                      "SphereForceField",
                                      "ConstantForceField",
@@ -61,6 +62,7 @@ inline constexpr auto distributed_classes =
                                      "IdentityMapping",
                                      "SubsetMapping",
                                      "BarycentricMapping",
+                                     "RigidMapping",
                                      "DefaultPipeline",
                                      "BruteForceBroadPhase",
                                      "BVHNarrowPhase",
@@ -72,14 +74,23 @@ inline constexpr auto distributed_classes =
                                      "TriangleCollisionModel",
                                      "SphereCollisionModel"});
 
+namespace detail {
+template <class C>
+inline constexpr bool of_multipliers =
+    HasRole<C, role::LagrangianConstraint> || HasRole<C, role::ConstraintSolver> ||
+    HasRole<C, role::ConstraintCorrection> || HasRole<C, role::AnimationLoop>;
+}  // namespace detail
+
 template <class C>
 constexpr bool is_distributed() {
   if constexpr (requires { C::distributed; })
     return C::distributed;
-  else if constexpr (JoinsTwo<C>)
+  else if constexpr (JoinsTwo<C> && !HasRole<C, role::InteractionForceField>)
     return false;
   else if constexpr (HasRole<C, role::Context> || HasRole<C, role::Engine>)
     return true;  // a value for all points, or data that are there before the scene starts
+  else if constexpr (HasRole<C, role::VisualModel>)
+    return true;  // in the whole scene alone
   else if constexpr (requires { requires C::matrixFree; })
     return C::className == std::string_view("CGLinearSolver");
   else
@@ -93,7 +104,14 @@ void refuse_undistributed(RootScope const& root) {
   std::vector<std::string> all;
   traverse(root, on<AnyRole>([&](auto const& c, auto const& scope) {
              using C = std::decay_t<decltype(c)>;
-             if constexpr (!is_distributed<C>()) all.push_back(text(scope.path(), ": ", component_name<C>()));
+             if constexpr (!is_distributed<C>())
+               all.push_back(text(scope.path(),
+                                  ": ",
+                                  component_name<C>(),
+                                  detail::of_multipliers<C> ? ", whose multipliers one process has; take "
+                                                              "springs, or contacts that answer by forces "
+                                                              "(PenalityContactForceField)"
+                                                            : ""));
            }));
   if (all.empty()) return;
   std::string list;
@@ -112,7 +130,10 @@ void refuse_undistributed(RootScope const& root) {
 /// common, as those of an element have, where one element of the child is carried by them; and a rank has
 /// all elements of the child that come back to a point of its own. Of a state whose points collide each rank
 /// has all points, and those that carry them, so that all ranks find the same contacts. What no solver moves
-/// is on each rank as a whole.
+/// is on each rank as a whole. A rigid body is a point whose carried points come back to it. Where something
+/// joins points of two states, a rank that owns one of its ends has what it needs of the other. Each rank has
+/// one point of each state at least, so that no list of a component loses its last entry. Visual models are
+/// empty: they are looked at in the whole scene.
 template <class RootScope>
 class ShareOut {
  public:
@@ -124,11 +145,23 @@ class ShareOut {
       throw Error(root_.path(),
                   "the scene has no points that could be shared out among ranks; run it in one process");
     for (State& s : states_)
-      if (!s.parent) share(s);
+      if (!s.parent) divide(s);
+    listNeeded();
+    for (State& s : states_)
+      if (!s.parent && s.moves)
+        s.part = part_of(s.where,
+                         std::move(s.part.parts),
+                         s.views,
+                         ranks().rank(),
+                         ranks().size(),
+                         s.together,
+                         s.needed,
+                         s.rigid);
     shareMapped();
     traverse(root_, on<AnyRole>([&](auto& c, auto const& scope) { follow(c, scope); }));
+    emptyVisuals();
     for (State& s : states_)
-      to_.add(Halo(std::move(s.part), to_.ranks().rank(), s.bytes), s.parent && s.moves);
+      to_.add(Halo(std::move(s.part), ranks().rank(), s.bytes), (s.parent && s.moves) || !joints_.empty());
   }
 
  private:
@@ -137,6 +170,7 @@ class ShareOut {
     void const* address;
     std::string where;
     std::size_t points, bytes;  // of positions and velocities, of one
+    bool rigid;
     std::vector<TopologyView> views{};
     std::vector<void const*> topologies{};
     std::vector<Points> joined{};       // points that have more than an element in common
@@ -145,6 +179,9 @@ class ShareOut {
     std::vector<Points> carriers{};     // of each point, those of the parent
     std::vector<Points> roots{};        // and those of the state above that is not mapped
     bool moves = false, whole = false;  // by a solver; on each rank
+    std::size_t spare = 0;              // point of one that is mapped that a rank without others has
+    JoinedPoints together{};            // of one that is not mapped, all that joins its points
+    std::vector<NeededPoint> needed{};  // and those that ranks have beside these
     std::vector<bool> kept{};           // points of one that is mapped that come back to this rank
     Part part{};
 
@@ -156,9 +193,18 @@ class ShareOut {
       for (Points const& p : joined) f(std::span<Index const>(p.data(), p.size()));
     }
   };
+  // points of two states that something joins
+  struct Joint {
+    State *first, *second;
+    Points ofFirst, ofSecond;
+  };
   RootScope const& root_;
   Distribution& to_;
   std::deque<State> states_{};  // in their order in the scene
+  std::vector<Joint> joints_{};
+  std::vector<std::size_t> load_{};  // of each rank: its points, and those that rigid bodies carry
+
+  Communicator& ranks() const { return to_.ranks(); }
 
   State* find(void const* address) {
     for (State& s : states_)
@@ -175,6 +221,12 @@ class ShareOut {
         if (s.topologies[t] == address) return s.part.topologies[t];
     return none();
   }
+  // whether the points of this node are to be looked at only
+  template <class S>
+  static bool isVisual(S const& scope) {
+    return !with_first<role::State>(scope, [](auto&) {}) &&
+           with_first<role::VisualModel>(scope, [](auto&) {});
+  }
   bool isOwn(State const& s, Index point) const {
     return s.part.parts[std::size_t(point)] == to_.ranks().rank();
   }
@@ -184,14 +236,15 @@ class ShareOut {
                states_.push_back(State{.address = &s,
                                        .where = scope.path(),
                                        .points = s.size(),
-                                       .bytes = sizeof s.position[0] + sizeof s.velocity[0]});
+                                       .bytes = sizeof s.position[0] + sizeof s.velocity[0],
+                                       .rigid = std::decay_t<decltype(s)>::DataTypes::rigid});
              }));
     for_each_integrator(root_, [&](auto&, auto const& scope) {
       traverse(scope, on<role::State>([&](auto& s, auto const&) { find(&s)->moves = true; }));
     });
     traverse(root_, on<role::Mapping>([&](auto& mapping, auto const& scope) { link(mapping, scope); }));
     traverse(root_, on<role::Topology>([&](auto const& t, auto const& at) {
-               State* const of = find(at.pointsAddress());
+               State* const of = isVisual(at) ? nullptr : find(at.pointsAddress());
                if (!of) return;
                if constexpr (!editable_topology<std::decay_t<decltype(t)>>)
                  if (of->moves)
@@ -204,7 +257,19 @@ class ShareOut {
                of->topologies.push_back(&t);
              }));
     traverse(root_, on<role::ForceField>([&](auto& c, auto const& scope) {
-               if (State* const of = find(scope.stateAddress())) joinEnds(c, *of);
+               if (State* const of = find(scope.stateAddress()))
+                 forEachJoint(c, [&](Points ends, Points const& others) {
+                   ends.insert(ends.end(), others.begin(), others.end());
+                   if (ends.size() > 1) of->joined.push_back(std::move(ends));
+                 });
+             }));
+    traverse(root_, on<role::InteractionForceField>([&](auto& c, auto const& scope) {
+               scope.withEnds(c, [&](auto const& a, auto const& b) {
+                 State *const first = find(a.stateAddress()), *const second = find(b.stateAddress());
+                 forEachJoint(c, [&](Points ends, Points others) {
+                   joints_.push_back({first, second, std::move(ends), std::move(others)});
+                 });
+               });
              }));
     traverse(root_, on<role::CollisionModel>([&](auto& c, auto const& scope) {
                State* const of = find(scope.stateAddress());
@@ -214,7 +279,8 @@ class ShareOut {
                      text(scope.path(), ": ", component_name<std::decay_t<decltype(c)>>()),
                      "each rank has all points that collide, and of a body its part; put the model into "
                      "a child node with a state of its own that follows the body, such as a surface "
-                     "with a SubsetMapping or BarycentricMapping");
+                     "with a SubsetMapping or BarycentricMapping, or points that rigid bodies carry by a "
+                     "RigidMapping");
                of->whole = true;
              }));
   }
@@ -247,52 +313,121 @@ class ShareOut {
       }
     });
   }
-  static void once(Points& points) {
+  static void once(std::vector<int>& points) {
     std::sort(points.begin(), points.end());
     points.erase(std::unique(points.begin(), points.end()), points.end());
   }
-  // springs and the like, which have their ends in a list
-  template <class C>
-  static void joinEnds(C& c, State& of) {
-    for_each_field(c, [&]<class List>(auto const&, List& list) {
-      if constexpr (sinew::detail::is_struct_list<List>)
+  // f(points, points of the second end) of springs and the like, which have their ends in lists
+  template <class C, class F>
+  static void forEachJoint(C& c, F&& f) {
+    using sinew::detail::ListsThatFollow;
+    std::vector<int> const* lists[2]{};
+    for_each_field(c, [&]<class List>(auto const& fd, List& list) {
+      if constexpr (sinew::detail::is_struct_list<List>) {
         for (auto& item : list) {
-          Points ends;
+          Points ends[2];
           sinew::detail::for_each_number(item, [&](Of what, int& i) {
-            if (sinew::detail::ListsThatFollow::isEntry(what)) ends.push_back(Index(i));
+            if (ListsThatFollow::isEntry(what)) ends[what == Of::secondPoints].push_back(Index(i));
           });
-          if (ends.size() > 1) of.joined.push_back(std::move(ends));
+          f(std::move(ends[0]), std::move(ends[1]));
         }
+      } else if constexpr (std::is_same_v<List, std::vector<int>>) {
+        if (fd.numbers && ListsThatFollow::isEntry(fd.entries)) lists[fd.entries == Of::secondPoints] = &list;
+      }
     });
+    if (lists[0] && lists[1])
+      for (std::size_t i = 0; i < std::min(lists[0]->size(), lists[1]->size()); ++i)
+        f(Points{Index((*lists[0])[i])}, Points{Index((*lists[1])[i])});
   }
 
-  // a state that no other moves
-  void share(State& s) {
-    const int rank = to_.ranks().rank(), ranks = to_.ranks().size();
+  // which rank has which point of a state that no other moves
+  void divide(State& s) {
     compare(s);
     if (!s.moves) return keepWhole(s);
-    Points everywhere;
-    std::vector<Points> together = s.joined;
+    s.together = s.joined;
+    std::vector<std::size_t> weights(s.points, 1);
     for (State& child : states_) {
       if (!child.parent || &child.top() != &s) continue;
-      if (child.whole)
-        for (Points const& roots : child.roots)
-          everywhere.insert(everywhere.end(), roots.begin(), roots.end());
-      for (Points const& roots : child.roots)
-        if (roots.size() > 1) together.push_back(roots);
+      for (Points const& roots : child.roots) {
+        for (const Index r : roots) {
+          ++weights[std::size_t(r)];
+          if (child.whole) s.needed.push_back({r});
+        }
+        if (roots.size() > 1) s.together.push_back(roots);
+      }
       child.forEachJoined([&](std::span<Index const> points) {
         Points all;
         for (const Index i : points)
           all.insert(all.end(), child.roots[std::size_t(i)].begin(), child.roots[std::size_t(i)].end());
         once(all);
-        if (all.size() > 1) together.push_back(std::move(all));
+        if (all.size() > 1) s.together.push_back(std::move(all));
       });
     }
-    once(everywhere);
+    std::vector<int>& parts = s.part.parts;
+    if (ranks().rank() == 0) {
+      if (s.rigid && s.points < std::size_t(4 * ranks().size()))
+        parts = partsOfFew(weights);
+      else
+        parts = parts_of_points(s.where, s.points, s.views, ranks().size(), s.together, s.rigid);
+    }
+    ranks().broadcast(parts, "the parts of the scene, from rank 0");
+    load_.resize(std::size_t(ranks().size()), 0);
+    for (std::size_t i = 0; i < s.points; ++i) load_[std::size_t(parts[i])] += weights[i];
+  }
+  // rigid bodies each to the rank that has least
+  std::vector<int> partsOfFew(std::vector<std::size_t> const& weights) const {
+    std::vector<std::size_t> load = load_;
+    load.resize(std::size_t(ranks().size()), 0);
     std::vector<int> parts;
-    if (rank == 0) parts = parts_of_points(s.where, s.points, s.views, ranks, together);
-    to_.ranks().broadcast(parts, "the parts of the scene, from rank 0");
-    s.part = part_of(s.where, std::move(parts), s.views, rank, ranks, together, everywhere);
+    for (const std::size_t weight : weights) {
+      const auto least = std::min_element(load.begin(), load.end());
+      *least += weight;
+      parts.push_back(int(least - load.begin()));
+    }
+    return parts;
+  }
+
+  // those of the state above that is not mapped; none of what no solver moves, which all ranks have
+  Points rootsOf(State& s, Index point) {
+    if (s.parent) return s.roots[std::size_t(point)];
+    return s.moves ? Points{point} : Points{};
+  }
+  // f(rank, point of the state above) for those that own what carries a joint, and all that does
+  template <class F>
+  void forEachNeed(Joint const& joint, F&& f) {
+    std::vector<int> owners;
+    auto each = [&](auto&& g) {
+      for (const Index i : joint.ofFirst)
+        for (const Index r : rootsOf(*joint.first, i)) g(joint.first->top(), r);
+      for (const Index i : joint.ofSecond)
+        for (const Index r : rootsOf(*joint.second, i)) g(joint.second->top(), r);
+    };
+    each([&](State& top, Index r) { owners.push_back(top.part.parts[std::size_t(r)]); });
+    once(owners);
+    each([&](State& top, Index r) {
+      for (const int owner : owners) f(owner, top, r);
+    });
+  }
+  // the points of states that are not mapped that ranks need beside those of their elements
+  void listNeeded() {
+    for (Joint const& joint : joints_)
+      forEachNeed(joint, [](int owner, State& top, Index r) { top.needed.push_back({r, owner}); });
+    for (State& s : states_) {
+      if (!s.top().moves || s.whole) continue;
+      if (!s.parent && !s.rigid) continue;  // (of which each rank has elements)
+      std::vector<bool> has(std::size_t(ranks().size()), false);
+      std::size_t first = s.points;  // that something carries
+      for (std::size_t i = s.points; i-- > 0;)
+        for (const Index r : rootsOf(s, Index(i))) {
+          has[std::size_t(s.top().part.parts[std::size_t(r)])] = true;
+          first = i;
+        }
+      if (first == s.points) continue;
+      for (std::size_t rank = 0; rank < has.size(); ++rank)
+        if (!has[rank])
+          for (const Index r : rootsOf(s, Index(first))) s.top().needed.push_back({r, int(rank)});
+      s.spare = first;
+    }
   }
   void keepWhole(State& s) {
     s.part.parts.assign(s.points, 0);
@@ -334,6 +469,9 @@ class ShareOut {
         if (comesBack(*s, points))
           for (const Index i : points) mine[std::size_t(i)] = true;
       });
+      for (Joint const& joint : joints_)
+        if (joint.first == &*s || joint.second == &*s) keepEnds(joint, *s);
+      if (!mine.empty() && std::find(mine.begin(), mine.end(), true) == mine.end()) mine[s->spare] = true;
       if (s->parent->parent)
         for (std::size_t i = 0; i < s->points; ++i)
           if (mine[i])
@@ -352,6 +490,35 @@ class ShareOut {
         });
       }
     }
+  }
+
+  // the ends of a joint that comes back to this rank
+  void keepEnds(Joint const& joint, State& s) {
+    bool here = false;
+    forEachNeed(joint, [&](int owner, State&, Index) { here = here || owner == ranks().rank(); });
+    if (!here) return;
+    if (joint.first == &s)
+      for (const Index i : joint.ofFirst) s.kept[std::size_t(i)] = true;
+    if (joint.second == &s)
+      for (const Index i : joint.ofSecond) s.kept[std::size_t(i)] = true;
+  }
+
+  // Visual models have no vertices, and their mappings and links nothing to move.
+  void emptyVisuals() {
+    traverse(root_, on<role::Mapping>([&](auto& mapping, auto const& scope) {
+               using M = std::decay_t<decltype(mapping)>;
+               if (!isVisual(scope)) return;
+               mapping = M{};
+               if constexpr (requires(Renumbering const& points) { mapping.shareOut(points, points); })
+                 mapping.shareOut({}, {});
+             }));
+    traverse(root_, on<role::VisualModel>([](auto& visual, auto const&) {
+               visual = std::decay_t<decltype(visual)>{};
+             }));
+    if constexpr (requires { root_.node.live.targets; })
+      std::erase_if(root_.node.live.targets, [](auto const& target) {
+        return target.entry && target.entry->component.template is<role::VisualModel>();
+      });
   }
 
   // All ranks have the same scene, and the same version of Sinew.
@@ -381,6 +548,15 @@ class ShareOut {
   }
   static std::string_view versionText() { return SINEW_VERSION; }
 
+  // A point is as heavy as in the whole scene, also where its elements are on other ranks alone.
+  template <class C>
+  static void keepMasses(C& c) {
+    if constexpr (requires { c.vertexMass = c.lumped.mass, c.massDensity.reset(), c.totalMass.reset(); })
+      if (c.lumped.massless.empty()) {
+        c.vertexMass = c.lumped.mass;
+        c.massDensity.reset(), c.totalMass.reset();
+      }
+  }
   template <class C, class S>
   void follow(C& c, S const& scope) {
     if constexpr (HasRole<C, role::State>) {
@@ -412,8 +588,14 @@ class ShareOut {
         else
           follow_fields(c, {of->part.points, {}, above->part.points, ofTopology(scope.topologyAddress())});
       });
+    } else if constexpr (HasRole<C, role::InteractionForceField>) {
+      scope.withEnds(c, [&](auto const& a, auto const& b) {
+        follow_fields(c,
+                      {find(a.stateAddress())->part.points, find(b.stateAddress())->part.points, {}, none()});
+      });
     } else if constexpr (ActsOnState<C> && !JoinsTwo<C>) {
       if constexpr (requires { c.shareOut(); }) c.shareOut();
+      keepMasses(c);
       if (State const* const state = find(scope.stateAddress()))
         follow_fields(c, {state->part.points, state->part.points, {}, ofTopology(scope.topologyAddress())});
     }

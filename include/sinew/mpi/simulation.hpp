@@ -68,8 +68,24 @@ class DistributedSimulation {
   /// The scene as one process would have it now, on rank 0, and null on the others: what a checkpoint is made
   /// of. Throws Error where a component keeps values from step to step that are not gathered.
   N const* whole() {
-    ranks_->collectively("the whole scene", [&] { gather(); });
+    ranks_->collectively("the whole scene", [&] {
+      refuseKept();
+      gather();
+    });
     return whole_ ? &*whole_ : nullptr;
+  }
+  /// f(scope of the root) sees the same on rank 0, with visual models where they are now, of which parts have
+  /// no vertices. What components keep from step to step is that of the start there.
+  template <class F>
+  void look(F&& f) {
+    ranks_->collectively("the scene to be looked at", [&] {
+      gather();
+      if (!whole_) return;
+      const auto all = scopeOf(*whole_);
+      LiveEngines<std::decay_t<decltype(all)>>{all, local_.time()}.update(false);
+      update_visuals(all);
+      f(all);
+    });
   }
 
   /// Those of Simulation, on each rank, after keepWhole(): rank 0 adds them up over the whole scene [J].
@@ -79,14 +95,16 @@ class DistributedSimulation {
   Energies energies() {
     std::vector<double> found(2, 0);
     ranks_->collectively("the energies", [&] {
+      refuseKept();
       gather();
       if (whole_) {
         traverse(scopeOf(*whole_), on<role::Mass>([&](auto& c, auto const& at) {
                    with_states_of(
                        c, at, [&](auto& s) { found[0] += c.kineticEnergy(s.position, s.velocity); });
                  }));
-        traverse(scopeOf(*whole_), on<role::ForceField>([&](auto& c, auto const& at) {
-                   with_states_of(c, at, [&](auto& s) { found[1] += potential_energy(c, s.position); });
+        traverse(scopeOf(*whole_),
+                 on<role::ForceField, role::InteractionForceField>([&](auto& c, auto const& at) {
+                   with_states_of(c, at, [&](auto&... s) { found[1] += potential_energy(c, s.position...); });
                  }));
       }
       ranks_->broadcast(found, "the energies of the scene, from rank 0");
@@ -132,6 +150,10 @@ class DistributedSimulation {
   template <class C>
   static constexpr bool sameOnAll = HasRole<C, role::ContactManager>;
   // other lists that steps change, beside vectors of states
+  void refuseKept() {
+    if (!keepsWhole_) return;
+    traverse(scope(), on<AnyRole>([](auto& c, auto const& at) { refuseKept(c, at.path()); }));
+  }
   template <class C>
   static void refuseKept(C const& c, std::string const& where) {
     if constexpr (requires { C::state(); } && !sameOnAll<C>)
@@ -151,10 +173,7 @@ class DistributedSimulation {
     if (!keepsWhole_) throw Error("DistributedSimulation::whole", "call keepWhole() before init()");
     // both trees have the same components in the same order
     std::vector<void*> here;
-    traverse(scope(), on<AnyRole>([&](auto& c, auto const& at) {
-               here.push_back(&c);
-               refuseKept(c, at.path());
-             }));
+    traverse(scope(), on<AnyRole>([&](auto& c, auto const&) { here.push_back(&c); }));
     auto& parts = local_.root().distribution();
     std::size_t next = 0;
     if (whole_) {
