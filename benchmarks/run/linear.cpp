@@ -112,7 +112,7 @@ void run(Mesh const& mesh, Kind const& kind, int rounds) {
   choices.push_back({"ml", [&] { return solve_by_petsc(system, "ml"); }});
 #endif
 #ifdef BENCH_MUELU
-  choices.push_back({"muelu", [&] { return solve_by_muelu(system, false); }});
+  choices.push_back({"muelu", [&] { return solve_by_muelu(system); }});
 #endif
   for (int r = 0; r < rounds; ++r)
     for (Choice& c : choices) {
