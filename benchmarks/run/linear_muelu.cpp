@@ -48,8 +48,8 @@ LinearResult solve_by_muelu(LinearSystem const& s) {
 
   // MueLu's User's Guide (SAND2023-12265), chapter on performance: to start from the settings of the type of
   // problem, here smoothed aggregation over three equations a point and Chebyshev, which takes less time than
-  // symmetric Gauss-Seidel; implicit restriction where symmetric. Weak joints are dropped, as Sinew does: a
-  // third of the time where stiffness jumps, and a little less elsewhere
+  // symmetric Gauss-Seidel; implicit restriction where symmetric. Weak joints are dropped, as Sinew does: the
+  // solution takes a third of the time where stiffness jumps, and a little less elsewhere
   Teuchos::ParameterList settings;
   settings.set("verbosity", "none");
   settings.set("problem: type", "Elasticity-3D");
