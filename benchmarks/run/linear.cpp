@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 // Seconds to |b - A x| = 1e-6 |b| over one assembled matrix by multigrid and, where they are installed, by
-// CHOLMOD, hypre and PETSc: linear CELLS ROUNDS KIND, of a cube of CELLS^3 cells of six tetrahedra, or of a
-// mesh file in the place of CELLS; KIND is plain, incompressible (Poisson's ratio 0.49) or contrast (layers
-// 10,000 times as stiff); DEGREE is that of the smoother. They take turns. Prints the size, then a line a
-// solver: name, seconds of the set-up, of the solution, iterations, residual; and steps a second with
+// CHOLMOD, hypre, PETSc and MueLu: linear CELLS ROUNDS KIND, of a cube of CELLS^3 cells of six tetrahedra, or
+// of a mesh file in the place of CELLS; KIND is plain, incompressible (Poisson's ratio 0.49) or contrast
+// (layers 10,000 times as stiff); DEGREE is that of the smoother. They take turns. Prints the size, then a
+// line a solver: name, seconds of the set-up, of the solution, iterations, residual; and steps a second with
 // multigrid made anew in each step, and in each tenth.
 #include "bodies.hpp"
 #include "linear_system.hpp"
@@ -110,6 +110,9 @@ void run(Mesh const& mesh, Kind const& kind, int rounds) {
 #ifdef BENCH_PETSC
   choices.push_back({"petsc", [&] { return solve_by_petsc(system, "gamg"); }});
   choices.push_back({"ml", [&] { return solve_by_petsc(system, "ml"); }});
+#endif
+#ifdef BENCH_MUELU
+  choices.push_back({"muelu", [&] { return solve_by_muelu(system); }});
 #endif
   for (int r = 0; r < rounds; ++r)
     for (Choice& c : choices) {

@@ -29,5 +29,7 @@ LinearResult solve_by_hypre(LinearSystem const& system, bool nodal);
 /// Conjugate gradients with one of PETSc's preconditioners by smoothed aggregation with rigid motions: its
 /// own, gamg, or Trilinos' ml, which came before MueLu.
 LinearResult solve_by_petsc(LinearSystem const& system, char const* preconditioner);
+/// Conjugate gradients with Trilinos' MueLu: smoothed aggregation with rigid motions.
+LinearResult solve_by_muelu(LinearSystem const& system);
 
 }  // namespace bench

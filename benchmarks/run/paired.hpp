@@ -10,14 +10,16 @@
 namespace bench {
 
 /// Time of some work by the clock [s], for what several threads do together.
-inline double seconds(auto&& work) {
+template <class Work>
+double seconds(Work&& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
 /// The same of the processor time of this thread: where other work runs on the machine, it counts less.
-inline double processor_seconds(auto&& work) {
+template <class Work>
+double processor_seconds(Work&& work) {
   auto now = [] {
     timespec t;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
