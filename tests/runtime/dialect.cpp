@@ -493,7 +493,7 @@ TEST_CASE("what shaders read and what is only looked at is left out") {
   CHECK(in<MechanicalObject<Vec3d>>(scene).position.size() == 1);
 }
 
-TEST_CASE("positions of a state are whole points, and frames where points are linked") {
+TEST_CASE("positions of a state are whole points, frames where points are linked, and centers where frames are") {
   auto few = node("<MechanicalObject position='0 1 2 3 4 5 6'/>");
   CHECK(in<MechanicalObject<Vec3d>>(few).position == Vec3d::VecCoord{{0, 1, 2}, {3, 4, 5}});
   CHECK(has(few.warnings,
@@ -518,6 +518,10 @@ TEST_CASE("positions of a state are whole points, and frames where points are li
       "<MechanicalObject name='a' template='Rigid3' position='1 2 3 0 0 1 0'/>"
       "<Node name='n'><MechanicalObject template='Rigid3' position='@../a.position'/></Node>");
   CHECK(in<MechanicalObject<Rigid3d>>(same, "n").position[0].orientation.z() == 1);
+  auto centers = node(
+      "<MechanicalObject name='a' template='Rigid3' position='1 2 3 0 0 0 1  4 5 6 0 0 1 0'/>"
+      "<Node name='n'><MeshTopology position='@../a.position' edges='0 1'/><MechanicalObject/></Node>");
+  CHECK(in<MechanicalObject<Vec3d>>(centers, "n").position == Vec3d::VecCoord{{1, 2, 3}, {4, 5, 6}});
 }
 
 TEST_CASE("springs are held by a state that does not move") {

@@ -174,7 +174,7 @@ def counts(results, steps):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sinew", help="the program")
+    parser.add_argument("sinew", type=pathlib.Path, help="the program")
     parser.add_argument("--examples", type=pathlib.Path, required=True, help="folder examples/ of SOFA's sources")
     parser.add_argument("--answers", type=pathlib.Path, help="SOFA's answers")
     parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "docs/sofa.md", help="with reasons")
@@ -186,7 +186,9 @@ def main():
     parser.add_argument("--repeats", type=int, default=5, help="of which the median is a scene's speed; 0: positions only")
     parser.add_argument("--only", nargs="+", metavar="PART", help="scenes whose path has one of these in it")
     options = parser.parse_args()
-    options.examples = options.examples.resolve()
+    options.sinew, options.examples = options.sinew.resolve(), options.examples.resolve()
+    if not options.sinew.is_file():
+        sys.exit(f"compare.py: there is no program {options.sinew}; give that of sinew")
     if not options.examples.is_dir():
         sys.exit(f"compare.py: there is no folder {options.examples}; give that of SOFA's examples")
     answers = {}

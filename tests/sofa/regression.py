@@ -85,7 +85,7 @@ def run(options, scene, steps):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("sinew", help="the program")
+    parser.add_argument("sinew", type=pathlib.Path, help="the program")
     parser.add_argument("--examples", type=pathlib.Path, required=True, help="folder examples/ of SOFA's sources")
     parser.add_argument("--references", type=pathlib.Path, required=True, help="folder references/examples of SOFA's Regression")
     parser.add_argument("--page", type=pathlib.Path, default=pathlib.Path(__file__).parents[2] / "docs/sofa.md", help="with reasons")
@@ -94,7 +94,9 @@ def main():
     parser.add_argument("--jobs", type=int, default=1, help="scenes at once")
     parser.add_argument("--only", nargs="+", metavar="PART", help="scenes whose path has one of these in it")
     options = parser.parse_args()
-    options.examples, options.references = options.examples.resolve(), options.references.resolve()
+    options.sinew, options.examples, options.references = (p.resolve() for p in (options.sinew, options.examples, options.references))
+    if not options.sinew.is_file():
+        sys.exit(f"regression.py: there is no program {options.sinew}; give that of sinew")
     scenes = scenes_of(options.examples / "RegressionStateScenes.regression-tests")
     scenes = [s for s in scenes if not options.only or any(part in s[0] for part in options.only)]
     if not scenes:

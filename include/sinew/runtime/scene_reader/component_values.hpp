@@ -88,6 +88,7 @@ class ComponentValues {
     const bool frames = from && from->kind.find("quaternion") != from->kind.npos;
     const bool inSpace = !frames && (types.empty() || types.find("Vec3") != types.npos);
     std::string words = valueOf(std::move(target));
+    if (frames && field.kind == "list of 3 numbers") return every(words, 7, 3, "");  // their centers
     if (!inSpace || item.info->role != RoleKind::state || !dialect::has(fields_of_points, field.name))
       return words;
     if (item.info->dataTypes.find("Rigid3") != std::string_view::npos) return every(words, 3, 3, "0 0 0 1 ");
