@@ -493,7 +493,8 @@ TEST_CASE("what shaders read and what is only looked at is left out") {
   CHECK(in<MechanicalObject<Vec3d>>(scene).position.size() == 1);
 }
 
-TEST_CASE("positions of a state are whole points, frames where points are linked, and centers where frames are") {
+TEST_CASE(
+    "positions of a state are whole points, frames where points are linked, and centers where frames are") {
   auto few = node("<MechanicalObject position='0 1 2 3 4 5 6'/>");
   CHECK(in<MechanicalObject<Vec3d>>(few).position == Vec3d::VecCoord{{0, 1, 2}, {3, 4, 5}});
   CHECK(has(few.warnings,
