@@ -104,12 +104,16 @@ alike = {}
 for name, bodies, steps, tolerance, moved in (("mapped", ["bar", "bar/skin", "bar/skin/tips", "bar/copy"], 6, 1e-7, 1e-3),
                                               ("constraints", ["bar"], 6, 1e-7, 1e-2),
                                               ("contact", ["bodies/lower", "bodies/upper", "bodies/upper/surface"], 10, 1e-7, 1e-3),
-                                              ("rigid", ["bodies/soft", "bodies/rigids", "bodies/rigids/carried"], 10, 1e-7, 1e-4)):
+                                              ("rigid", ["bodies/soft", "bodies/rigids", "bodies/rigids/carried"], 10, 1e-7, 1e-4),
+                                              ("bodies", [f"all/{b}" for b in ("hyperelastic", "viscoelastic", "prisms", "pyramids", "quadratic")], 6, 1e-7, 1e-3),
+                                              ("sheets", [f"all/{b}" for b in ("fem", "tensor", "quadratic", "biquadratic", "quads", "shell", "beams")], 6, 1e-7, 1e-3)):
     for solver in "cg", "petsc":
         found = same_on_ranks(made[f"{name}_{solver}"], bodies, steps, tolerance, moved, 4 if solver == "cg" else 2,
                               {"mapped": ["bar/look"], "rigid": ["bodies/rigids/carried/look"]}.get(name, []))
         for body in bodies:
             assert distance(found[body][1], alike.setdefault((name, body), found[body][1])) < tolerance
+for ode in scenes.ODE_SOLVERS:
+    same_on_ranks(made[f"stepped_{ode}"], ["all/bar"], 5, 1e-8, 1e-5, 2)
 
 # a checkpoint goes on with another number of ranks; with as many bit by bit
 bar = made["mapped_cg"]

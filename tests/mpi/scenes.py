@@ -89,8 +89,7 @@ def mapped(solver):
 def constraints(solver):
     """Each projective constraint on some points of a bar."""
     points, cells = grid((12, 3, 3), (0, 0, 0), (5.5, 1, 1))
-    tetrahedra = [[c[i] for i in t] for c in cells for t in
-                  ((0, 1, 2, 6), (0, 1, 6, 5), (0, 2, 3, 6), (0, 3, 7, 6), (0, 4, 5, 6), (0, 7, 4, 6))]
+    tetrahedra = tetrahedra_of(cells)
     return scene("0 -9.81 0", 0.01, f"""
   <Node name="bar">
     <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="0.1"/>
@@ -208,6 +207,134 @@ def rigid(solver):
 """)
 
 
+def tetrahedra_of(cells):
+    return [[c[i] for i in t] for c in cells for t in ((0, 1, 2, 6), (0, 1, 6, 5), (0, 2, 3, 6), (0, 3, 7, 6), (0, 4, 5, 6), (0, 7, 4, 6))]
+
+
+def second_order(points, tetrahedra):
+    """Points with those amid the edges, and tetrahedra of ten points."""
+    points, at = list(points), {}
+    def amid(a, b):
+        key = min(a, b), max(a, b)
+        if key not in at:
+            at[key] = len(points)
+            points.append([(x + y) / 2 for x, y in zip(points[a], points[b])])
+        return at[key]
+    edges = (0, 1), (1, 2), (0, 2), (0, 3), (1, 3), (2, 3)
+    return points, [[*t, *(amid(t[a], t[b]) for a, b in edges)] for t in tetrahedra]
+
+
+def pyramids_of(points, cells):
+    """Points with one amid each hexahedron, and the six pyramids around that."""
+    points, pyramids = list(points), []
+    for c in cells:
+        amid = len(points)
+        points.append([sum(points[i][k] for i in c) / 8 for k in range(3)])
+        pyramids += [[*(c[i] for i in side), amid] for side in ((1, 2, 3, 0), (7, 6, 5, 4), (4, 5, 1, 0), (5, 6, 2, 1), (6, 7, 3, 2), (7, 4, 0, 3))]
+    return points, pyramids
+
+
+def body(name, points, elements, inside, template=""):
+    """A body that is held where x = 0."""
+    held = " ".join(str(i) for i, p in enumerate(points) if p[0] == 0)
+    lists = " ".join(f'{kind}="{words(of)}"' for kind, of in elements.items())
+    at = points if not template else [[*p, 0, 0, 0, 1] for p in points]
+    of = f'template="{template}"' if template else ""
+    return f"""
+    <Node name="{name}">
+      <MeshTopology position="{words(points)}" {lists}/>
+      <MechanicalObject {of} position="{words(at)}"/>
+      {inside}
+      <FixedConstraint {of} indices="{held}"/>
+    </Node>"""
+
+
+def together(solver, bodies):
+    return scene("0 -9.81 0", 0.01, f"""
+  <Node name="all">
+    <EulerImplicitSolver rayleighStiffness="0.01" rayleighMass="0.1"/>
+    {SOLVERS[solver]}
+    {"".join(bodies)}
+  </Node>
+""")
+
+
+def bodies(solver):
+    """Bodies of each kind of element in space, with the masses and loads that there are."""
+    points, cells = grid((9, 3, 3), (0, 0, 0), (4, 1, 1))
+    tetrahedra = tetrahedra_of(cells)
+    prisms = [[c[i] for i in p] for c in cells for p in ((0, 1, 2, 4, 5, 6), (0, 2, 3, 4, 6, 7))]
+    coarse, few = grid((5, 2, 2), (0, 0, 0), (4, 1, 1))
+    fine, quadratic = second_order(coarse, tetrahedra_of(few))
+    amid, pyramids = pyramids_of(points, cells)
+    ends = " ".join(str(i) for i, p in enumerate(points) if p[0] == 4)
+    return together(solver, [
+        body("hyperelastic", points, {"tetrahedra": tetrahedra}, """<MeshMatrixMass massDensity="100"/>
+      <TetrahedronHyperelasticityFEMForceField materialName="StableNeoHookean" ParameterSet="40000 200000"/>
+      <EllipsoidForceField center="3 -0.5 0.5" vradius="0.6 0.6 0.4" stiffness="2000" damping="1"/>"""),
+        body("viscoelastic", points, {"tetrahedra": tetrahedra}, f"""<DiagonalMass massDensity="100"/>
+      <TetrahedronViscoelasticityFEMForceField materialName="SLSMaxwellFirstOrder" ParameterSet="100000 50000 0.1 0.3"/>
+      <TorsionForceField indices="{ends}" torque="20" axis="1 0 0" origin="0 0.5 0.5"/>"""),
+        body("prisms", points, {"prisms": prisms}, f"""<DiagonalMass massDensity="100"/>
+      <PrismFEMForceField youngModulus="2e5" poissonRatio="0.3"/>
+      <LinearForceField points="{ends}" times="0 0.03 0.1" forces="0 0 0  0 10 20  0 0 0"/>"""),
+        body("pyramids", amid, {"pyramids": pyramids}, f"""<DiagonalMass massDensity="100"/>
+      <PyramidFEMForceField youngModulus="2e5" poissonRatio="0.3"/>
+      <PolynomialRestShapeSpringsForceField points="{ends}" polynomialDegree="3" polynomialStiffness="100 10 1" initialLength="1"/>"""),
+        body("quadratic", fine, {"quadraticTetrahedra": quadratic}, """<MeshMatrixMass massDensity="100"/>
+      <QuadraticTetrahedronFEMForceField youngModulus="2e5" poissonRatio="0.3"/>
+      <ConicalForceField coneCenter="0 0 0" coneHeight="5 0 0" coneAngle="20" stiffness="50" damping="1"/>""")])
+
+
+def sheets(solver):
+    """Sheets by each law of triangles, quads and shells, a frame of beams, and pressures on them."""
+    points, triangles, quads = [], [], []
+    n, m = 9, 5
+    for j in range(m):
+        for i in range(n):
+            points.append([i / 4, 0.02 * math.sin(3 * i + 5 * j) * (i > 0), j / 4])
+    for j in range(m - 1):
+        for i in range(n - 1):
+            a, b, c, d = i + n * j, i + 1 + n * j, i + 1 + n * (j + 1), i + n * (j + 1)
+            quads.append([a, d, c, b])
+            triangles += [[a, c, b], [a, d, c]]
+    edges = [[i + n * j, i + 1 + n * j] for j in range(m) for i in range(n - 1)] + [[i + n * j, i + n * (j + 1)] for j in range(m - 1) for i in range(n)]
+    pressed = " ".join(str(i) for i in range(5, 30))
+    mass = '<DiagonalMass massDensity="5"/>'
+    def sheet(name, inside):
+        return body(name, points, {"triangles": triangles}, mass + inside)
+    def shell(name, elements, inside):
+        return body(name, points, elements, '<UniformMass template="Rigid3d" totalMass="2"/>' + inside, "Rigid3d")
+    some = " ".join(str(i) for i in range(3, 20))
+    return together(solver, [
+        sheet("fem", f'<TriangleFEMForceField youngModulus="4000" poissonRatio="0.3"/><TrianglePressureForceField pressure="0 20 5" triangleList="{pressed}"/>'),
+        sheet("tensor", '<TriangularTensorMassForceField youngModulus="2000" poissonRatio="0.3"/>'),
+        sheet("quadratic", '<TriangularQuadraticSpringsForceField youngModulus="2000" poissonRatio="0.3"/>'),
+        sheet("biquadratic", '<TriangularBiquadraticSpringsForceField youngModulus="2000" poissonRatio="0.3"/>'),
+        body("quads", points, {"quads": quads}, mass + f"""<QuadBendingFEMForceField youngModulus="4000" poissonRatio="0.3" thickness="0.1"/>
+      <QuadPressureForceField pressure="0 20 5" quadList="{some}"/>"""),
+        shell("shell", {"triangles": triangles}, '<TriangularShellForceField youngModulus="1e6" poissonRatio="0.3" thickness="0.02"/>'),
+        shell("beams", {"edges": edges}, '<BeamFEMForceField youngModulus="1e6" poissonRatio="0.3" radius="0.03"/>')])
+
+
+ODE_SOLVERS = {"newmark": "<NewmarkImplicitSolver/>", "bdf": '<BDFOdeSolver order="2"/>', "symplectic": "<VariationalSymplecticSolver/>",
+               "static": "<StaticSolver/>", "runge_kutta_2": "<RungeKutta2Solver/>", "runge_kutta_4": "<RungeKutta4Solver/>",
+               "central": '<CentralDifferenceSolver rayleighMass="0.1"/>', "symplectic_euler": "<EulerExplicitSolver/>"}
+
+
+def stepped(ode):
+    """A bar that one of the ODE solvers steps."""
+    points, cells = grid((9, 3, 3), (0, 0, 0), (4, 1, 1))
+    bar = body("bar", points, {"hexahedra": cells}, '<DiagonalMass massDensity="100"/><HexahedronFEMForceField youngModulus="1e5" poissonRatio="0.3"/>')
+    return scene("0 -9.81 0", 0.001, f"""
+  <Node name="all">
+    {ODE_SOLVERS[ode]}
+    {SOLVERS["cg"]}
+    {bar}
+  </Node>
+""")
+
+
 def gmsh(n, low, high):
     """A grid of hexahedra as a Gmsh file of version 2.2."""
     points, cells = grid(n, low, high)
@@ -254,10 +381,10 @@ def write(folder):
     folder = pathlib.Path(folder)
     folder.mkdir(parents=True, exist_ok=True)
     all = {}
-    for make in mapped, constraints, contact, rigid:
-        for solver in SOLVERS:
-            path = folder / f"{make.__name__}_{solver}.scn"
-            path.write_text(make(solver))
+    for make, kinds in *((make, SOLVERS) for make in (mapped, constraints, contact, rigid, bodies, sheets)), (stepped, ODE_SOLVERS):
+        for kind in kinds:
+            path = folder / f"{make.__name__}_{kind}.scn"
+            path.write_text(make(kind))
             all[path.stem] = str(path)
     return all
 

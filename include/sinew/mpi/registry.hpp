@@ -30,9 +30,12 @@ struct GmshFormatOfRanks : sinew::detail::GmshFormat {
 using DistributableBodies =
     Registry<Gravity, MeshLoader<detail::GmshFormatOfRanks>, MeshVTKLoader, MeshOBJLoader, BoxROI<Vec3d>,
              SphereROI<Vec3d>, PlaneROI<Vec3d>, MeshTopology, TetrahedronTopology, MechanicalObject<Vec3d>,
-             UniformMass<Vec3d>, DiagonalMass<Vec3d>, EulerImplicitSolver, EulerExplicitSolver,
-             CGLinearSolver<>, PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>,
-             SubsetMapping<Vec3d, Vec3d>, BarycentricMapping<Vec3d, Vec3d>>;
+             UniformMass<Vec3d>, DiagonalMass<Vec3d>, MeshMatrixMass<Vec3d>, CGLinearSolver<>,
+             PetscLinearSolver<>, IdentityMapping<Vec3d, Vec3d>, SubsetMapping<Vec3d, Vec3d>,
+             BarycentricMapping<Vec3d, Vec3d>>;
+using DistributableSolvers = Registry<EulerImplicitSolver, EulerExplicitSolver, NewmarkImplicitSolver,
+                                      BDFOdeSolver, VariationalSymplecticSolver, StaticSolver,
+                                      RungeKutta2Solver, RungeKutta4Solver, CentralDifferenceSolver>;
 using LookedAt = Registry<VisualModel, IdentityMapping<Vec3d, Vec3f>, SubsetMapping<Vec3d, Vec3f>,
                           BarycentricMapping<Vec3d, Vec3f>, RigidMapping<Rigid3d, Vec3f>>;
 using DistributableRigids =
@@ -40,12 +43,21 @@ using DistributableRigids =
              JointSpringForceField<Rigid3d>, JointSpringForceField<Rigid3d, Linked>,
              ConstantForceField<Rigid3d>, RestShapeSpringsForceField<Rigid3d>,
              UniformVelocityDampingForceField<Rigid3d>, FixedConstraint<Rigid3d>,
-             PartialFixedConstraint<Rigid3d>>;
+             PartialFixedConstraint<Rigid3d>, TriangularShellForceField<Rigid3d>, BeamFEMForceField<Rigid3d>>;
+using DistributableElements =
+    Registry<TetrahedronHyperelasticityFEMForceField<Vec3d>, TetrahedronViscoelasticityFEMForceField<Vec3d>,
+             PrismFEMForceField<Vec3d>, PyramidFEMForceField<Vec3d>, QuadraticTetrahedronFEMForceField<Vec3d>,
+             TriangleFEMForceField<Vec3d>, TriangularTensorMassForceField<Vec3d>,
+             TriangularQuadraticSpringsForceField<Vec3d>, TriangularBiquadraticSpringsForceField<Vec3d>,
+             QuadBendingFEMForceField<Vec3d>, TrianglePressureForceField<Vec3d>,
+             QuadPressureForceField<Vec3d>>;
 using DistributableForces =
     Registry<TetrahedronFEMForceField<Vec3d>, HexahedronFEMForceField<Vec3d>, MeshSpringForceField<Vec3d>,
              StiffSpringForceField<Vec3d>, StiffSpringForceField<Vec3d, Linked>, PlaneForceField<Vec3d>,
-             SphereForceField<Vec3d>, ConstantForceField<Vec3d>, RestShapeSpringsForceField<Vec3d>,
-             UniformVelocityDampingForceField<Vec3d>>;
+             SphereForceField<Vec3d>, EllipsoidForceField<Vec3d>, ConicalForceField<Vec3d>,
+             ConstantForceField<Vec3d>, LinearForceField<Vec3d>, TorsionForceField<Vec3d>,
+             RestShapeSpringsForceField<Vec3d>, PolynomialRestShapeSpringsForceField<Vec3d>,
+             UniformVelocityDampingForceField<Vec3d>, DiagonalVelocityDampingForceField<Vec3d>>;
 using DistributableConstraints =
     Registry<FixedConstraint<Vec3d>, PartialFixedConstraint<Vec3d>, FixedPlaneConstraint<Vec3d>,
              LinearMovementConstraint<Vec3d>, LinearVelocityConstraint<Vec3d>,
@@ -57,8 +69,9 @@ using DistributableContact =
     Registry<DefaultPipeline, BruteForceBroadPhase, BVHNarrowPhase, MinProximityIntersection,
              LocalMinDistance, DefaultContactManager, PointCollisionModel<Vec3d>, LineCollisionModel<Vec3d>,
              TriangleCollisionModel<Vec3d>, SphereCollisionModel<Vec3d>>;
-struct Distributable : Registry<DistributableBodies, LookedAt, DistributableRigids, DistributableForces,
-                                DistributableConstraints, DistributableContact> {
+struct Distributable
+    : Registry<DistributableBodies, DistributableSolvers, LookedAt, DistributableRigids,
+               DistributableElements, DistributableForces, DistributableConstraints, DistributableContact> {
   using Distribution = mpi::Distribution;
 };
 
