@@ -136,7 +136,8 @@ TEST_CASE("a surface point is a manifold point when its link shows one curve") {
   OneCell one;
   auto set = [&](auto label) {
     for (std::size_t d = 0; d < 14; ++d)
-      one.lattice.label[std::size_t(one.p + one.lattice.steps_of(one.p)[d])] = static_cast<signed char>(label(int(d)));
+      one.lattice.label[std::size_t(one.p + one.lattice.steps_of(one.p)[d])] =
+          static_cast<signed char>(label(int(d)));
     one.lattice.label[std::size_t(one.p)] = 0;
     return is_manifold_at(one.lattice, one.p);
   };
