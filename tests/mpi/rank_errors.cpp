@@ -85,12 +85,12 @@ TEST_CASE("scenes that cannot be shared out are refused before the run") {
   };
   std::string error = said(bar(EulerImplicitSolver{},
                                CGLinearSolver<CompressedRowSparseMatrixMat3x3d>{},
-                               DiagonalVelocityDampingForceField<Vec3d>{}));
+                               FastTriangularBendingSprings<Vec3d>{}));
   INFO(error);
   CHECK(says(error,
              {"not distributed yet",
               "/root: CGLinearSolver<CompressedRowSparseMatrixMat3x3d>",
-              "/root: DiagonalVelocityDampingForceField<Vec3d>"}));
+              "/root: FastTriangularBendingSprings<Vec3d>"}));
   CHECK(error.find("TetrahedronFEM") == std::string::npos);
 
   auto constrained = node<"root">(
