@@ -33,6 +33,7 @@
 #include <sinew/io/write_obj.hpp>
 #include <sinew/linalg/aggregation.hpp>
 #include <sinew/linalg/chebyshev.hpp>
+#include <sinew/linalg/lattice.hpp>
 #include <sinew/linalg/minimum_degree.hpp>
 #include <sinew/topology/add_plan.hpp>
 #include <sinew/topology/adjacency.hpp>

@@ -107,10 +107,35 @@ std::array<double, 2> rigid_errors(MultigridLevel<R>& level, std::vector<Row> co
   return {force / most, difference / most};
 }
 
+/// Points of a grid, those that are there, and as neighbours those that differ by one in one direction and
+/// are joined.
+struct Grid {
+  Lattice lattice{};
+  std::vector<int> start{0}, neighbours{};
+
+  template <class There, class Joined>
+  Grid(std::array<int, 3> n, There there, Joined joined) {
+    lattice.size = n;
+    for (int z = 0; z < n[2]; ++z)
+      for (int y = 0; y < n[1]; ++y)
+        for (int x = 0; x < n[0]; ++x)
+          if (there(x, y, z)) lattice.of.push_back({x, y, z});
+    for (auto const& a : lattice.of) {
+      for (std::size_t k = 0; k < lattice.of.size(); ++k) {
+        auto const& b = lattice.of[k];
+        const int apart = std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]) + std::abs(a[2] - b[2]);
+        if (apart == 1 && joined(a, b)) neighbours.push_back(int(k));
+      }
+      start.push_back(int(neighbours.size()));
+    }
+  }
+  LatticeCells cells() const { return aggregate_cells(lattice, start, neighbours); }
+};
+
 }  // namespace
 
 TEST_CASE("the coarse space of a free body has its rigid motions") {
-  Body body({13, 7, 7});
+  Body body({16, 7, 7});
   Multigrid m = cycle_of(body, {.coarsestSize = 6});
   REQUIRE(m.levels() >= 3);
   // P is in float
@@ -238,6 +263,78 @@ TEST_CASE("points are aggregated once each, by whole neighbourhoods") {
   const Aggregates found = aggregate_points(start, neighbours, std::vector<float>(neighbours.size(), 1.f));
   CHECK(found.of == std::vector{0, 0, 1, 1, 1, 2, 2, 2, 2, -1});
   CHECK(found.count == 3);
+}
+
+TEST_CASE("points are on a lattice where their numbers are evenly spaced") {
+  Mesh mesh = regular_grid_tetrahedra(7, 5, 4, {-1, 2, 0.1}, {2, 3, 0.4});
+  auto& x = mesh.positions;
+  const Lattice found = find_lattice(x);
+  CHECK(found.size == std::array{7, 5, 4});
+  REQUIRE(found.of.size() == x.size());
+  bool right = true;
+  for (std::size_t i = 0; i < x.size(); ++i)
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double first = std::array{-1.0, 2.0, 0.1}[c], spacing = std::array{0.5, 0.25, 0.1}[c];
+      right = right && std::abs(first + spacing * found.of[i][c] - x[i][int(c)]) < 1e-12;
+    }
+  CHECK(right);
+  // numbers that are none are of no point; a hole in the body does not matter, a point between does
+  x[3] = Eigen::Vector3d::Constant(NAN);
+  CHECK(find_lattice(x).of[3] == std::array{-1, -1, -1});
+  x.erase(x.begin() + 40, x.begin() + 45);
+  CHECK(find_lattice(x).size == found.size);
+  x.push_back({0.2, 2, 0.1});
+  CHECK(find_lattice(x).of.empty());
+  // in a plane
+  const std::vector<Eigen::Vector3d> row{{0, 0, 0}, {2, 0, 0}, {4, 0, 0}};
+  CHECK(find_lattice(row).size == std::array{3, 1, 1});
+  CHECK(find_lattice({}).of.empty());
+}
+
+TEST_CASE("points of a lattice are aggregated by cells that hang together") {
+  auto all = [](auto const&...) { return true; };
+  const std::array n{6, 6, 3};
+  const Grid whole(n, all, all);
+  const LatticeCells cells = whole.cells();
+  CHECK(cells.aggregates.count == 4);
+  CHECK(cells.lattice.size == std::array{2, 2, 1});
+  REQUIRE(cells.lattice.of.size() == 4);
+  bool right = true;
+  for (std::size_t i = 0; i < whole.lattice.of.size(); ++i) {
+    auto const& cell = cells.lattice.of[std::size_t(cells.aggregates.of[i])];
+    right = right && cell[0] == (whole.lattice.of[i][0] > 2) && cell[1] == (whole.lattice.of[i][1] > 2);
+  }
+  CHECK(right);
+
+  // a slit between cells parts none, one in the middle of cells does
+  auto slit = [](int behind) {
+    return [behind](auto const& a, auto const& b) { return (a[0] > behind) == (b[0] > behind); };
+  };
+  const Grid between(n, all, slit(2)), within(n, all, slit(1));
+  CHECK(between.cells().aggregates.count == 4);
+  CHECK(within.cells().aggregates.count == 0);
+
+  // the corner of a sphere: two points of a cell join the aggregates beside them
+  const Grid ragged(
+      {7, 3, 3}, [](int x, int y, int z) { return x < 3 || (x == 3 && y == 0 && z < 2); }, all);
+  const LatticeCells two = ragged.cells();
+  CHECK(two.aggregates.count == 1);
+  const std::vector<float> even(ragged.neighbours.size(), 1.f);
+  const Aggregates joined = aggregate_points(ragged.start, ragged.neighbours, even, two.aggregates);
+  CHECK(joined.count == 1);
+  CHECK(std::count(joined.of.begin(), joined.of.end(), 0) == long(joined.of.size()));
+}
+
+TEST_CASE("the levels of a regular body are cells of cells") {
+  Body body({18, 9, 9}, 1e-3);
+  const Multigrid m = cycle_of(body, {.coarsestSize = 60});
+  REQUIRE(m.levels() == 3);
+  CHECK(m.fine.down.coarseRows() == 54);
+  CHECK(m.coarse[0].down.coarseRows() == 2);
+  // whole neighbourhoods where the modes are those of no points in space
+  Body other = body;
+  for (auto& row : other.modes) row[3] = -row[3];
+  CHECK(cycle_of(other, {.coarsestSize = 60}).fine.down.aggregate != m.fine.down.aggregate);
 }
 
 TEST_CASE("the largest eigenvalue of a tridiagonal matrix") {

@@ -19,9 +19,10 @@ struct Aggregates {
 /// whole neighbourhoods of points none of whose neighbours is in an aggregate, in the order of points; then
 /// what is left joins the aggregate of the first pass to which it is joined most strongly; then neighbours
 /// among the rest join each other. Points without neighbours are in none. start, neighbours: the graph in
-/// compressed rows without its diagonal, with the strength of each connection.
+/// compressed rows without its diagonal, with the strength of each connection. found: aggregates that are
+/// there already; others come beside them.
 Aggregates aggregate_points(std::span<int const> start, std::span<int const> neighbours,
-                            std::span<float const> strength);
+                            std::span<float const> strength, Aggregates found = {});
 
 }  // namespace sinew
 
@@ -29,9 +30,9 @@ Aggregates aggregate_points(std::span<int const> start, std::span<int const> nei
 namespace sinew {
 
 SINEW_ONCE Aggregates aggregate_points(std::span<int const> start, std::span<int const> neighbours,
-                                       std::span<float const> strength) {
+                                       std::span<float const> strength, Aggregates found) {
   const std::size_t n = start.empty() ? 0 : start.size() - 1;
-  Aggregates found{std::vector<int>(n, -1)};
+  found.of.resize(n, -1);
   auto each = [&](std::size_t i, auto&& f) {
     for (int k = start[i]; k < start[i + 1]; ++k)
       f(std::size_t(neighbours[std::size_t(k)]), strength[std::size_t(k)]);

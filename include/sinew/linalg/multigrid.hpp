@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace sinew {
@@ -62,7 +63,7 @@ class Multigrid {
       coarse.clear(), coarse.reserve(std::size_t(settings.levels));
       again = known && alone == firstAlone;
       finds = !known;
-      if (finds) firstAlone = alone, first.clear();
+      if (finds) firstAlone = alone, first.clear(), lattice = find_lattice(places());
       known = true;
     }
     bool more = next(workers, fine, 0);
@@ -73,6 +74,7 @@ class Multigrid {
     else if (direct)
       factorise(coarseFactor, coarse.back().matrix);
     built = true;
+    lattice = {};
   }
 
   /// Of vectors of as many numbers as the matrix has.
@@ -115,12 +117,35 @@ class Multigrid {
   std::vector<Aggregates> first{};
   std::vector<char> firstAlone{};
   bool known = false, again = false, finds = false;  // there are those; they are taken; they are looked for
+  Lattice lattice{};                                 // of the level that is looked at, then of the one below
 
   template <class Vector>
   Eigen::Vector3d threeOf(Vector const& v, int i) const {
     Eigen::Vector3d three = Eigen::Vector3d::Zero();
     for (int c = 0; c < 3 && 3 * i + c < dofs; ++c) three[c] = double(v[3 * i + c]);
     return three;
+  }
+  // Where the points are, by their rotations, v = w x x, and not numbers of unknowns that are no points in
+  // space; none where stiffness is uneven, since cells do not keep to its borders. A corner of a body has a
+  // hundredth of the stiffness of its middle at least.
+  std::vector<Eigen::Vector3d> places() const {
+    std::vector<Eigen::Vector3d> all;
+    double softest = 0, stiffest = std::numeric_limits<double>::max();  // |W|^2, of 1 / stiffness
+    for (std::size_t i = 0; 3 * i + 2 < modes.size(); ++i) {
+      Row const* const m = &modes[3 * i];
+      const Eigen::Vector3d x(m[1][5], m[2][3], m[0][4]);
+      const Row expected[3] = {
+          {1, 0, 0, 0, x[2], -x[1]}, {0, 1, 0, -x[2], 0, x[0]}, {0, 0, 1, x[1], -x[0], 0}};
+      bool point = true;
+      for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 6; ++c) point = point && m[r][c] == expected[r][c];
+      all.push_back(point ? x : Eigen::Vector3d(Eigen::Vector3d::Constant(NAN)));
+      if (alone[i]) continue;
+      softest = std::max(softest, fine.unit.inverse[i].squaredNorm());
+      stiffest = std::min(stiffest, fine.unit.inverse[i].squaredNorm());
+    }
+    if (softest > 100 * stiffest) all.clear();
+    return all;
   }
   template <class Matrix>
   bool solvable(Matrix const& a) const {
@@ -163,6 +188,7 @@ class Multigrid {
                            settings.threshold,
                            workers.count(),
                            below.matrix,
+                           lattice,
                            again ? &first[index] : nullptr))
         return coarse.pop_back(), false;
       if (finds) first.push_back({level.down.aggregate, level.down.coarseRows()});

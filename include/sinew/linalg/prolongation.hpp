@@ -4,10 +4,12 @@
 #include <sinew/linalg/aggregation.hpp>
 #include <sinew/linalg/coarse_rows.hpp>
 #include <sinew/linalg/galerkin_product.hpp>
+#include <sinew/linalg/lattice.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -34,12 +36,14 @@ struct Prolongation {
 
   /// Aggregates and patterns, that of the coarse matrix too. Connections count where the Frobenius norm of
   /// their block is above `threshold`; rows that are `alone` take nothing from the coarse side. Aggregates
-  /// that are `known` are not looked for. False where there is nothing to aggregate, or no row would be
-  /// saved.
+  /// are the cells of a lattice where points stand on one that suits the connections, and it becomes that of
+  /// the aggregates; those that are `known` are not looked for. False where there is nothing to aggregate, or
+  /// no row would be saved.
   bool init(Fine const& a, std::vector<char> const& alone, double threshold, int threads,
-            CompressedRowSparseMatrix<double, 6>& coarse, Aggregates const* known = nullptr) {
+            CompressedRowSparseMatrix<double, 6>& coarse, Lattice& lattice,
+            Aggregates const* known = nullptr) {
     const int n = a.rows();
-    Aggregates found = known ? *known : find(a, threshold);
+    Aggregates found = known ? *known : find(a, threshold, lattice);
     if (found.count == 0 || 6 * found.count >= R * n) return false;
     aggregate = std::move(found.of);
     collect(found.count);
@@ -167,7 +171,7 @@ struct Prolongation {
   }
 
  private:
-  static Aggregates find(Fine const& a, double threshold) {
+  static Aggregates find(Fine const& a, double threshold, Lattice& lattice) {
     std::vector<int> start{0}, strong;
     std::vector<float> strength;
     for (int i = 0; i < a.rows(); ++i) {
@@ -179,7 +183,11 @@ struct Prolongation {
       });
       start.push_back(int(strong.size()));
     }
-    return aggregate_points(start, strong, strength);
+    LatticeCells cells = aggregate_cells(lattice, start, strong);
+    const int count = cells.aggregates.count;
+    Aggregates found = aggregate_points(start, strong, strength, std::move(cells.aggregates));
+    lattice = found.count == count ? std::move(cells.lattice) : Lattice{};
+    return found;
   }
   static double squared_norm(double const* block) {
     double sum = 0;
