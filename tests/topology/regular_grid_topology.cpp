@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <sinew/topology/adjacency.hpp>
+#include <sinew/topology/edges_as_they_come.hpp>
 #include <sinew/topology/regular_grid_topology.hpp>
 
 #include "catch.hpp"
@@ -35,18 +36,22 @@ TEST_CASE("RegularGridTopology makes the hexahedra, quads, triangles and edges o
   CHECK(grid.view().positions.size() == 24);
   CHECK(grid.view().tetrahedra.empty());
 
-  // each line once: 3 x 3 x 2 along x, 4 x 2 x 2 along y, 4 x 3 x 1 along z
-  CHECK(grid.edges.size() == 18 + 16 + 12);
-  auto sorted = grid.edges;
-  std::sort(sorted.begin(), sorted.end());
-  CHECK(sorted == edges_of(same.hexahedra));
+  // lines, 3 x 3 x 2 along x, 4 x 2 x 2 along y, 4 x 3 x 1 along z, and a diagonal in each square
+  CHECK(grid.edges.size() == 18 + 16 + 12 + 29);
+  detail::EdgesAsTheyCome sides;
+  sides.add(grid.triangles, std::array<detail::EdgeCorners, 3>{{{1, 2}, {2, 0}, {0, 1}}});
+  CHECK(grid.edges == sides.edges);
+  auto lines = made({.n = {4, 3, 2}, .computeTriangleList = false}).edges;
+  CHECK(lines.size() == 18 + 16 + 12);
+  std::sort(lines.begin(), lines.end());
+  CHECK(lines == edges_of(same.hexahedra));
   // squares: 3 x 2 in 2 xy planes, 3 x 1 in 3 xz planes, 2 x 1 in 4 yz planes
   REQUIRE(grid.quads.size() == 12 + 9 + 8);
   CHECK(grid.triangles.size() == 2 * grid.quads.size());
   double area = 0;
   for (Quad const& q : grid.quads) area += extent(q, grid.position);
   CHECK(area == Approx(2 * 3 * 2 + 3 * 3 * 2 + 4 * 2 * 2));
-  CHECK(edges_of_quads(grid.quads) == sorted);
+  CHECK(edges_of_quads(grid.quads) == lines);
   CHECK(grid.quads.front() == Quad{0, 1, 5, 4});
   CHECK(grid.triangles.front() == Triangle{0, 1, 5});
   CHECK(grid.triangles[1] == Triangle{0, 5, 4});
@@ -57,7 +62,13 @@ TEST_CASE("a grid of one plane is a sheet, of one line a string, of one point a 
   CHECK(sheet.hexahedra.empty());
   CHECK(sheet.quads.size() == 6);
   CHECK(sheet.triangles.size() == 12);
-  CHECK(sheet.edges.size() == 2 * 4 + 3 * 3);
+  CHECK(sheet.edges.size() == 2 * 4 + 3 * 3 + 6);
+  for (auto const& n : {std::array{3, 4, 1}, {3, 1, 4}, {1, 3, 4}}) {
+    const auto one = made({.n = n});
+    detail::EdgesAsTheyCome sides;
+    sides.add(one.triangles, std::array<detail::EdgeCorners, 3>{{{1, 2}, {2, 0}, {0, 1}}});
+    CHECK(one.edges == sides.edges);
+  }
   for (auto const& p : sheet.position) CHECK(p[2] == 1);  // the bottom of the box, as in SOFA
 
   for (const std::size_t axis : {0u, 1u, 2u}) {

@@ -88,7 +88,32 @@ void for_grid_lines(std::array<int, 3> const& n, Body&& body) {
   }
 }
 
-/// The elements between the `points` of a topology, those that it says it computes.
+/// Calls body(point, other point) for each side of the two triangles of each square, in the order in which
+/// these come with the squares of for_grid_squares().
+template <class Body>
+void for_grid_triangle_sides(std::array<int, 3> const& n, Body&& body) {
+  const std::array<Index, 3> step{1, n[0], n[0] * n[1]};
+  std::array<bool, 3> listed{};  // lines along x, y, z, by planes that came first
+  for (const auto [a, b] : {std::array<std::size_t, 2>{0, 1}, {0, 2}, {1, 2}}) {
+    std::array<int, 3> cells = n, at{};
+    --cells[a], --cells[b];
+    if (cells[a] == 0 || cells[b] == 0) continue;
+    for (at[2] = 0; at[2] < cells[2]; ++at[2])
+      for (at[1] = 0; at[1] < cells[1]; ++at[1])
+        for (at[0] = 0; at[0] < cells[0]; ++at[0]) {
+          const Index p = at[0] + at[1] * step[1] + at[2] * step[2], q = p + step[a] + step[b];
+          if (!listed[b]) body(p + step[a], q);
+          body(p, q);
+          if (!listed[a] && at[b] == 0) body(p, p + step[a]);
+          if (!listed[a]) body(p + step[b], q);
+          if (!listed[b] && at[a] == 0) body(p, p + step[b]);
+        }
+    listed[a] = listed[b] = true;
+  }
+}
+
+/// The elements between the `points` of a topology, those that it says it computes. Where it has triangles,
+/// edges are the sides of these, as in SOFA, else the lines between neighbours.
 template <class Topology>
 void make_grid_elements(Topology& t) {
   t.hexahedra.clear(), t.quads.clear(), t.triangles.clear(), t.edges.clear();
@@ -103,8 +128,13 @@ void make_grid_elements(Topology& t) {
         t.triangles.push_back({p, p + a + b, p + b});
       }
     });
-  if (t.computeEdgeList) for_grid_lines(t.points, [&](Index p, Index q) { t.edges.push_back({p, q}); });
+  auto addEdge = [&](Index p, Index q) { t.edges.push_back({p, q}); };
+  if (t.computeEdgeList && !t.triangles.empty())
+    for_grid_triangle_sides(t.points, addEdge);
+  else if (t.computeEdgeList)
+    for_grid_lines(t.points, addEdge);
 }
+
 /// What components see of a topology made by make_grid_elements.
 template <class Topology>
 TopologyView grid_view(Topology const& t) {

@@ -11,7 +11,7 @@
 namespace sinew {
 
 /// A box of n[0] x n[1] x n[2] points with all the elements between them: hexahedra where it has cells,
-/// squares in every plane, each also as two triangles, and the lines between neighbours. With one point in a
+/// squares in every plane, each also as two triangles, and the edges, diagonals too. With one point in a
 /// direction it is a sheet or a string. Point (i, j, k) has number i + n[0] (j + n[1] k).
 struct RegularGridTopology {
   using Role = role::Topology;
@@ -63,7 +63,11 @@ struct RegularGridTopology {
     return field_list(
         field("position", &T::position, "m", "the points, x fastest").also("points"),
         field("grid", &T::points, "", "points along x, y and z"),
-        field("edges", &T::edges, "", "lines between neighbours along x, then y, then z").also("lines"),
+        field("edges",
+              &T::edges,
+              "",
+              "sides of the triangles, as they come; without these, lines along x, then y, then z")
+            .also("lines"),
         field("triangles", &T::triangles, "", "each quad as two"),
         field("quads", &T::quads, "", "squares of the xy planes, then xz, then yz"),
         field("hexahedra", &T::hexahedra, "", "the cells, x fastest").also("hexas"));
