@@ -12,6 +12,8 @@
 #include <sinew/runtime/runtime.hpp>
 #include <sinew/visual/visual_model.hpp>
 
+#include <array>
+#include <cstddef>
 #include <string>
 
 namespace sinew::mpi {
@@ -74,5 +76,21 @@ struct Distributable
                DistributableElements, DistributableForces, DistributableConstraints, DistributableContact> {
   using Distribution = mpi::Distribution;
 };
+
+namespace detail {
+/// Whether each class that files may have can be shared out, and files may have each that can.
+consteval bool files_have_what_is_distributed() {
+  bool all = true;
+  std::array<bool, distributed_classes.size()> had{};
+  for_each_registered<Distributable>([&]<class C> {
+    all = all && is_distributed<C>();
+    for (std::size_t i = 0; i < had.size(); ++i) had[i] = had[i] || distributed_classes[i] == C::className;
+  });
+  for (const bool one : had) all = all && one;
+  return all;
+}
+static_assert(files_have_what_is_distributed(),
+              "Distributable and distributed_classes name the same classes; add what one of them lacks");
+}  // namespace detail
 
 }  // namespace sinew::mpi
