@@ -372,7 +372,8 @@ TABLES = {"fem": fem, "grids": grids, "small": small, "accuracy": accuracy, "roo
 # rows that two tables are made of
 SOURCE = {"gpu-float": "gpu-scenes", "gpu-double": "gpu-scenes", "multigrid-steps": "multigrid"}
 # the tables of each page; all of them are of one run
-PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "families", "collision", "compile"],
+PAGES = {"performance": ["fem", "grids", "small", "accuracy", "roofline", "growth", "threads", "portability", "by-hand", "runtime", "collision", "compile"],
+         "families": ["families"],
          "contact": ["contact", "siconos"], "fluids": ["fluids"], "laparoscopy": ["laparoscopy", "bounds"], "vitrectomy": ["vitrectomy"], "multigrid": ["multigrid", "multigrid-steps"],
          "gpu": ["gpu-float", "gpu-double", "gpu-iterations", "gpu-copies", "gpu-contact", "gpu-fluids", "gpu-grids", "gpu-multigrid", "gpu-devices"]}
 # tables that a run may lack, and what their place on the page says then

@@ -197,7 +197,7 @@ def main():
     print(f"\nall of it took {sum(run['seconds'].values()):.0f} s of the processor; figures written to {arguments.json}")
     for page in arguments.pages or []:
         # only some tables are made in rounds
-        of_page = run if page in ("performance", "vitrectomy", "multigrid") else {key: value for key, value in run.items() if key != "rounds"}
+        of_page = run if page in ("performance", "families", "vitrectomy", "multigrid") else {key: value for key, value in run.items() if key != "rounds"}
         sources = dict.fromkeys(map(pages.source, pages.PAGES[page]))
         seconds = {name: run["seconds"][name] for name in sources}
         pages.write(page, {"run": of_page | {"seconds": seconds}} | {name: results[name] for name in sources})

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "families_of.hpp"
+#include "families_rarer.hpp"
 
 std::vector<bench::Work> bench::in_double() {
-  auto list = forces<Vec3d>();
+  auto list = all_forces<Vec3d, Rigid3d, Vec1d>();
   for (auto& work : points<Vec3d>()) list.push_back(std::move(work));
   return list;
 }

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "families_of.hpp"
+#include "families_rarer.hpp"
 
-std::vector<bench::Work> bench::in_double_one_by_one() { return forces<WithLanes<Vec3d, 1>>(); }
+std::vector<bench::Work> bench::in_double_one_by_one() {
+  return all_forces<WithLanes<Vec3d, 1>, WithLanes<Rigid3d, 1>, WithLanes<Vec1d, 1>>();
+}

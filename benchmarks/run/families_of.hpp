@@ -33,22 +33,30 @@ namespace bench {
 
 using namespace sinew;
 
-/// A block of 11 x 11 x 11 points, strained by some hundredths, and what its vectors hold.
+/// What the vectors of a state hold.
 template <class D>
-struct Body {
+struct State {
+  typename D::VecCoord rest{}, x{};
+  typename D::VecDeriv v{}, f{};
+};
+
+/// A block of 11 x 11 x 11 points, strained by some hundredths.
+template <class D>
+struct Body : State<D> {
+  using State<D>::rest, State<D>::x, State<D>::v, State<D>::f;
   static constexpr int n = 11;
   Mesh hexahedra = regular_grid(n, n, n, {0, 0, 0}, {1, 1, 1});
   Mesh tetrahedra = regular_grid_tetrahedra(n, n, n, {0, 0, 0}, {1, 1, 1});
   std::vector<Edge> edges{};
   std::vector<Triangle> triangles{};
-  typename D::VecCoord rest{}, x{};
-  typename D::VecDeriv v{}, f{};
+  std::vector<Quad> quads{};
 
   Body() {
     edges = edges_of(tetrahedra.tetrahedra);
     detail::for_grid_squares({n, n, n}, [&](Index p, Index a, Index b) {
       triangles.push_back({p, p + a, p + a + b});
       triangles.push_back({p, p + a + b, p + b});
+      quads.push_back({p, p + a, p + a + b, p + b});
     });
     for (auto const& p : hexahedra.positions) {
       rest.push_back(p.template cast<typename D::Real>());
@@ -72,18 +80,29 @@ struct Body {
   TopologyView lines() const { return {.positions = hexahedra.positions, .edges = edges}; }
 };
 
+/// `count`: elements or points of a force that has no driver.
 template <class Force>
-void add_force(std::vector<Work>& list, std::string family, Force component, TopologyView const& topology,
-               std::shared_ptr<Body<typename Force::DataTypes>> body) {
-  using D = typename Force::DataTypes;
+void add_force(std::vector<Work>& list, std::string family, Force component,
+               InitContext<typename Force::DataTypes> const& context,
+               std::shared_ptr<State<typename Force::DataTypes>> state, std::size_t count = 0) {
   auto force = std::make_shared<Force>(std::move(component));
-  force->init(InitContext<D>{"benchmark", body->rest, topology});
-  std::size_t count = 0;
-  for (auto const& pack : force->driver.packs) count += std::size_t(pack.active);
+  force->init(context);
+  if constexpr (requires { force->driver; })
+    for (auto const& pack : force->driver.packs) count += std::size_t(pack.active);
   const MechanicalParams p{.dt = 0.01, .b = -0.01, .k = -0.0001};
   list.push_back(
-      {family, "addForce", count, [=] { sinew::add_force(*force, p, body->f, body->x, body->v); }});
-  list.push_back({family, "addDForce", count, [=] { sinew::add_dforce(*force, p, body->f, body->v); }});
+      {family, "addForce", count, [=] { sinew::add_force(*force, p, state->f, state->x, state->v); }});
+  list.push_back({family, "addDForce", count, [=] { sinew::add_dforce(*force, p, state->f, state->v); }});
+}
+template <class Force>
+void add_force(std::vector<Work>& list, std::string family, Force component, TopologyView const& topology,
+               std::shared_ptr<Body<typename Force::DataTypes>> body, std::size_t count = 0) {
+  add_force(list,
+            std::move(family),
+            std::move(component),
+            InitContext<typename Force::DataTypes>{"benchmark", body->rest, topology},
+            std::shared_ptr<State<typename Force::DataTypes>>(body),
+            count);
 }
 
 /// Element laws, which run in lanes.

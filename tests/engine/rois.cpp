@@ -88,7 +88,7 @@ TEST_CASE("elements are chosen with all points inside, or with their mean inside
   CHECK(box.hexahedraInROI == std::vector<Hexahedron>{g.hexahedra[0], g.hexahedra[1]});
   CHECK(box.tetrahedronIndices.size() == 12);
   CHECK(box.tetrahedraInROI[5] == tetrahedra[5]);
-  CHECK(box.edgeIndices.size() == 2 * 2 * 2 + 3 * 2 + 3 * 2);
+  CHECK(box.edgeIndices.size() == 2 * 2 * 2 + 3 * 2 + 3 * 2 + box.quadIndices.size());  // and diagonals
   CHECK(box.edgesInROI.front() == g.edges.front());
   CHECK(box.quadIndices.size() == 2 * 2 + 2 * 2 + 3);
   CHECK(box.triangleIndices.size() == 2 * box.quadIndices.size());
@@ -101,7 +101,7 @@ TEST_CASE("elements are chosen with all points inside, or with their mean inside
   box.update("box");
   CHECK(box.indices.empty());
   CHECK(box.hexahedronIndices == std::vector<int>{0, 1});
-  CHECK(box.edgeIndices.empty());
+  CHECK(box.edgesInROI == std::vector<Edge>{{1, 26}});  // the diagonal of the square between the cells
 
   box.computeHexahedra = box.computeTetrahedra = false;
   box.update("box");
