@@ -69,6 +69,7 @@
 #include <sinew/topology/sparse_grid_ramification_topology.hpp>
 #include <sinew/topology/sparse_grid_topology.hpp>
 #include <sinew/topology/sphere_grid_topology.hpp>
+#include <sinew/topology/split_edges.hpp>
 #include <sinew/topology/subdivision.hpp>
 #include <sinew/topology/surface_cells.hpp>
 #include <sinew/topology/surface_sampling.hpp>

@@ -17,7 +17,7 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL GNU)
   set(rest OFF)
 endif()
 
-set(quick_topology adjacency cut_plan hexahedra mesh_topology regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
+set(quick_topology adjacency cut_plan hexahedra mesh_topology refinement regular_grid regular_grid_topology removal_plan round_grids surface_mesh)
 set(quick_collision axis_box bounding_tree broad_phase closest_points contact_laws contact_scenes friction overlap ray_hits surface_elements
     time_of_impact)
 set(quick_scene bad_input element_removal live_engines picking place reset simulation)

@@ -94,7 +94,7 @@ struct PositionBasedDynamicsProjectiveConstraint {
     std::vector<std::vector<int>> clusters;
     for (auto const& old : cluster) {
       std::vector<int> now;
-      std::vector<bool> had(before, false);
+      std::vector<bool> had(before + points.come.size(), false);
       for (const int i : old) {
         const bool held = std::size_t(i) >= before;
         if (!held) had[std::size_t(i)] = true;
@@ -104,8 +104,10 @@ struct PositionBasedDynamicsProjectiveConstraint {
           now.push_back(points.now[std::size_t(i)]);
       }
       for (std::size_t k = 0; k < points.come.size(); ++k)
-        if (had[std::size_t(points.come[k].a)] && had[std::size_t(points.come[k].b)])
+        if (had[std::size_t(points.come[k].a)] && had[std::size_t(points.come[k].b)]) {
+          had[before + k] = true;
           now.push_back(int(points.kept.size() + k));
+        }
       if (!now.empty()) clusters.push_back(std::move(now));
     }
     cluster = std::move(clusters);

@@ -53,7 +53,8 @@ struct ListsThatFollow {
   bool grows;                              // points between its own are its own
   std::vector<bool> structs{}, entries{};  // which stay, of lists of structs and of lists of points
   Renumbering ofStructs{}, ofEntries{}, ofBoth{};
-  std::vector<Index> come{};  // points that come into the lists of points
+  std::vector<Index> come{};      // points that come into the lists of points
+  std::size_t entriesBefore = 0;  // behind which these are numbered
   bool emptied = false;
 
   static bool isEntry(Of what) { return what == Of::points || what == Of::secondPoints; }
@@ -77,6 +78,10 @@ struct ListsThatFollow {
   void marked() {
     markJoined();
     const auto before = Index(structs.size());
+    const auto more = Index(entries.size() - entriesBefore);  // of a longer list
+    for (Origin& o : comeOfEntries)
+      for (Index* i : {&o.a, &o.b, &o.c})
+        if (*i >= Index(entriesBefore)) *i += more;
     std::vector<Origin> comeBehind = comeOfEntries;
     for (Origin& o : comeBehind) {
       o.a += before, o.b += before;
@@ -175,12 +180,15 @@ SINEW_ONCE void ListsThatFollow::markNumbers(std::vector<int>& list, Of what) {
   for (std::size_t i = 0; i < list.size(); ++i)
     if (!change.numbered(what).stays(list[i])) entries[i] = false;
   if (!grows || what != Of::points || change.points.come.empty() || !come.empty()) return;
+  entriesBefore = entries.size();
   std::map<Index, Index> entryOf;
   for (std::size_t i = 0; i < list.size(); ++i) entryOf.emplace(list[i], Index(i));
   for (std::size_t k = 0; k < change.points.come.size(); ++k) {
     Origin const& o = change.points.come[k];
     const auto a = entryOf.find(o.a), b = entryOf.find(o.b), c = entryOf.find(o.c);
     if (a == entryOf.end() || b == entryOf.end() || (o.c >= 0 && c == entryOf.end())) continue;
+    // others may come of it
+    entryOf.emplace(Index(change.points.now.size() + k), Index(entriesBefore + come.size()));
     comeOfEntries.push_back({a->second, b->second, o.weight, o.c < 0 ? -1 : c->second, o.weightOfC});
     come.push_back(Index(change.points.kept.size() + k));
   }
@@ -222,6 +230,12 @@ SINEW_ONCE Renumbering ListsThatFollow::ofValues(Of what, std::size_t size) cons
     case Of::entries:
       // of structs and lists together, or of the lists only; where there are none, of all points
       return ofBoth.now.empty() ? change.points : size == ofBoth.now.size() ? ofBoth : ofEntries;
+    case Of::edges:
+      return change.topology.of(ElementKind::edge);
+    case Of::triangles:
+      return change.topology.of(ElementKind::triangle);
+    case Of::quads:
+      return change.topology.of(ElementKind::quad);
     case Of::hexahedra:
       return change.topology.of(ElementKind::hexahedron);
     case Of::pyramids:

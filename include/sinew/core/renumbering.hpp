@@ -13,7 +13,8 @@
 
 namespace sinew {
 
-/// Of what a point or an element is that comes, by old numbers:
+/// Of what a point or an element is that comes, by old numbers, behind which what comes before it is
+/// numbered:
 ///   x = (1 - weight - weightOfC) x_a + weight x_b + weightOfC x_c
 /// A part or a copy of one has a = b, what is on an edge no c (-1), and what is of nothing no a: it is none.
 struct Origin {
@@ -41,11 +42,15 @@ T value_between(T const& a, T const& b, double weight) {
     return weight < 0.5 ? a : b;
 }
 
-/// The same from a list with a value for each; that of what is of nothing is zero.
+/// The same from a list with a value for each, and those of what comes before; that of what is of nothing is
+/// zero.
 template <class List>
-auto value_of(List const& list, Origin const& o) -> typename List::value_type {
+auto value_of(List const& list, Origin const& o, std::vector<typename List::value_type> const& before = {}) ->
+    typename List::value_type {
   using T = typename List::value_type;
-  auto at = [&](Index i) -> T { return list[std::size_t(i)]; };
+  auto at = [&](Index i) -> T {
+    return std::size_t(i) < list.size() ? list[std::size_t(i)] : before[std::size_t(i) - list.size()];
+  };
   if (o.isNone()) {
     if constexpr (requires { T::Zero(); })
       return T::Zero();
@@ -78,7 +83,7 @@ struct Renumbering {
   /// So many that all stay, and others that come.
   static Renumbering grown(std::size_t stay, std::vector<Origin> come);
 
-  /// This, and then another in which nothing comes.
+  /// This, and then another in which nothing comes, and that of which something has come stays.
   Renumbering then(Renumbering const& removal) const;
 
   std::vector<bool> stays() const {
@@ -98,7 +103,7 @@ struct Renumbering {
     if (!changes() || list.size() != now.size()) return;
     std::vector<typename List::value_type> values;
     values.reserve(come.size());
-    for (Origin const& o : come) values.push_back(value_of(list, o));
+    for (Origin const& o : come) values.push_back(value_of(list, o, values));
     if (keepsOrder()) {
       for (std::size_t i = 0; i < kept.size(); ++i) list[i] = list[std::size_t(kept[i])];
       list.resize(kept.size());
@@ -168,7 +173,7 @@ struct ElementNumbers {
 /// Elements that come to a topology, in the numbers of its points with those that come behind them; pyramids,
 /// prisms and elements of second order do not.
 struct AddedElements {
-  std::vector<Origin> points{};  // where they come, between points that are there
+  std::vector<Origin> points{};  // where they come, between points that are there or come before them
   std::vector<Edge> edges{};
   std::vector<Triangle> triangles{};
   std::vector<Quad> quads{};
@@ -224,12 +229,16 @@ struct TopologyChange {
   }
   Renumbering const& of(ElementKind kind) const { return elements[std::size_t(kind)]; }
 
-  /// The entries that stay of a list of `size`, with one entry for each element of a dimension (1, 2, 3):
-  /// simplices first, and then as many entries for each other element as there must be, since a component may
-  /// split hexahedra or quads into simplices. Of dimension 0, of a topology without elements, nothing goes.
+  /// What becomes of a list of `size`, with one entry for each element of a dimension (1, 2, 3): simplices
+  /// first, and then as many entries for each other element as there must be, since a component may split
+  /// hexahedra or quads into simplices. A part has the entries of the whole, in their order, so that means
+  /// over the whole stay. Where others than simplices are listed too and something comes, all comes, what
+  /// stays as a copy. Of dimension 0, of a topology without elements, nothing goes.
   Renumbering ofDimension(int dimension, std::size_t size) const;
   /// The highest dimension of which there were elements; 0 for none.
   int dimension() const;
+  /// Whether elements of that dimension come, and each is a part of one that was there.
+  bool parts() const;
 };
 
 }  // namespace sinew
@@ -241,11 +250,19 @@ SINEW_ONCE Renumbering Renumbering::then(Renumbering const& removal) const {
   if (now.empty()) return removal;
   if (removal.now.empty()) return *this;
   Renumbering both;
-  for (const Index between : removal.kept)
-    if (std::size_t(between) < kept.size())
+  std::vector<Index> place(come.size(), -1);  // of what comes, as it is numbered behind the old
+  for (const Index between : removal.kept) {
+    if (std::size_t(between) < kept.size()) {
       both.kept.push_back(kept[std::size_t(between)]);
-    else
-      both.come.push_back(come[std::size_t(between) - kept.size()]);
+      continue;
+    }
+    const std::size_t k = std::size_t(between) - kept.size();
+    place[k] = Index(now.size() + both.come.size());
+    Origin o = come[k];
+    for (Index* of : {&o.a, &o.b, &o.c})
+      if (*of >= Index(now.size())) *of = place[std::size_t(*of) - now.size()];
+    both.come.push_back(o);
+  }
   for (const Index between : now) both.now.push_back(between < 0 ? -1 : removal.now[std::size_t(between)]);
   return both;
 }
@@ -283,27 +300,42 @@ SINEW_ONCE Renumbering Renumbering::grown(std::size_t stay, std::vector<Origin> 
 SINEW_ONCE Renumbering TopologyChange::ofDimension(int dimension, std::size_t size) const {
   if (dimension == 0) return {};
   constexpr int simplex[] = {0, 1, 3};
-  Renumbering const& simplices = elements[std::size_t(simplex[dimension - 1])];
-  // (of bodies with others besides none is cut)
-  if (dimension == 1 || !simplices.come.empty()) return simplices;
-  // the others one behind the other
-  Renumbering others;
+  Renumbering const& simplices = of(ElementKind(simplex[dimension - 1]));
+  // the others one kind behind the other
   std::size_t count = 0;
-  for (int kind = simplex[dimension - 1] + 1; kind < element_kinds; ++kind) {
-    if (dimension_of_kind(kind) != dimension) continue;
-    Renumbering const& more = elements[std::size_t(kind)];
-    for (const Index old : more.kept) others.kept.push_back(Index(count) + old);
-    if (!more.come.empty()) others = more;  // (nor do others come)
-    count += more.now.size();
-  }
+  bool comes = !simplices.come.empty();
+  auto forEachOther = [&](auto&& f) {
+    for (int kind = simplex[dimension - 1] + 1; kind < element_kinds; ++kind)
+      if (dimension_of_kind(kind) == dimension) f(elements[std::size_t(kind)]);
+  };
+  forEachOther([&](Renumbering const& kind) {
+    count += kind.now.size();
+    comes = comes || !kind.come.empty();
+  });
   const std::size_t first = simplices.now.size(), rest = size > first ? size - first : 0;
-  if (first == 0 && rest == count && !others.come.empty()) return others;
   if (count == 0 || rest % count != 0) return simplices;
-  std::vector<Index> kept = simplices.kept;
-  for (const Index old : others.kept)
-    for (std::size_t part = 0; part < rest / count; ++part)
-      kept.push_back(Index(first + std::size_t(old) * (rest / count) + part));
-  return Renumbering::inOrder(std::move(kept), first + rest);
+  std::vector<Index> kept;
+  std::vector<Origin> come;
+  std::size_t before = 0;
+  auto add = [&](Renumbering const& kind, std::size_t entries) {
+    auto addElement = [&](Index old) {
+      for (std::size_t k = 0; k < entries; ++k) {
+        const Index from = old < 0 ? -1 : Index(before + std::size_t(old) * entries + k);
+        if (!comes)
+          kept.push_back(from);
+        else
+          come.push_back(from < 0 ? Origin::none() : Origin{from, from, 0});
+      }
+    };
+    for (const Index old : kind.kept) addElement(old);
+    for (Origin const& o : kind.come) addElement(o.a);
+    before += kind.now.size() * entries;
+  };
+  add(simplices, 1);
+  forEachOther([&](Renumbering const& kind) { add(kind, rest / count); });
+  Renumbering all = Renumbering::inOrder(std::move(kept), first + rest);
+  all.come = std::move(come);
+  return all;
 }
 
 SINEW_ONCE int TopologyChange::dimension() const {
@@ -311,6 +343,14 @@ SINEW_ONCE int TopologyChange::dimension() const {
   for (int kind = 0; kind < element_kinds; ++kind)
     if (!elements[std::size_t(kind)].now.empty()) highest = std::max(highest, dimension_of_kind(kind));
   return highest;
+}
+
+SINEW_ONCE bool TopologyChange::parts() const {
+  bool any = false, all = true;
+  for (int kind = 0; kind < element_kinds; ++kind)
+    if (dimension_of_kind(kind) == dimension())
+      for (Origin const& o : elements[std::size_t(kind)].come) any = true, all = all && !o.isNone();
+  return any && all;
 }
 
 }  // namespace sinew

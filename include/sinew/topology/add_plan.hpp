@@ -69,15 +69,15 @@ inline void check_addition(std::size_t points, TopologyView const& body, AddedEl
   for (std::size_t k = 0; k < added.points.size(); ++k) {
     Origin const& o = added.points[k];
     for (const Index i : {o.a, o.b, o.c < 0 ? o.a : o.c})
-      if (i < 0 || std::size_t(i) >= points)
+      if (i < 0 || std::size_t(i) >= points + k)
         throw Error({},
                     text("the new point ",
                          k,
                          " is to lie beside point ",
                          i,
                          ", but there are ",
-                         points,
-                         " points, numbered from 0; correct the number"));
+                         points + k,
+                         " points before it, numbered from 0; correct the number"));
     if (!std::isfinite(o.weight) || !std::isfinite(o.weightOfC))
       throw Error({}, text("the place of the new point ", k, " is not a finite number; correct it"));
   }

@@ -15,13 +15,15 @@ struct Refinement {
   ElementNumbers whole{};  // those
 };
 
-/// Parts edges, triangles and tetrahedra at the middles of all their edges: an edge in 2, a triangle in 4, a
-/// tetrahedron in 8. The edges are split one after the other, the longest at rest first, in all elements that
-/// have them (bisection: Rivara 1984), so that neighbours are parted with them, into fewer parts, and faces
-/// still match. Empty numbers: all. Where edges are listed beside triangles or tetrahedra, or triangles
-/// beside tetrahedra, these are refined with them; a list of all edges, or of all faces, is one afterwards,
-/// too. Throws Error where a number leads nowhere, and where quads, hexahedra, pyramids or prisms would have
-/// to be parted.
+/// Parts elements at the middles of all their edges: an edge in 2, a triangle or a quad in 4, a tetrahedron
+/// or a hexahedron in 8. Neighbours are parted with them, into fewer parts, so that faces still match: edges,
+/// triangles and tetrahedra by bisection, at one edge after the other, the longest at rest first, in all that
+/// have it (Rivara 1984); quads and hexahedra from side to side, in 2, 4 or 8, and with them all along the
+/// sheets of their opposite sides (SplitEdges). Empty numbers: all. What is listed beside elements in which
+/// it lies, edges of triangles, faces of hexahedra, is refined with them; a list of all edges, or of all
+/// faces, is one afterwards, too. Throws Error where a number leads nowhere, where a pyramid, a prism or an
+/// element of second order would be parted, or a cell with a point twice, and where an element lies along a
+/// diagonal of a quad or a hexahedron that is.
 Refinement plan_refinement(TopologyView const& body, std::span<Eigen::Vector3d const> rest,
                            ElementNumbers const& elements);
 
@@ -29,165 +31,135 @@ Refinement plan_refinement(TopologyView const& body, std::span<Eigen::Vector3d c
 
 #if SINEW_DEFINES
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/split_cells.hpp>
+#include <sinew/topology/split_edges.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
-#include <string>
-#include <tuple>
 #include <vector>
 
 namespace sinew::detail {
 
-class SplitEdges {
+class RefinedBody {
  public:
-  SplitEdges(TopologyView const& body, std::span<Eigen::Vector3d const> rest, ElementNumbers const& elements)
-      : body_(body) {
-    const auto lists = elements.lists();
-    const bool all = std::all_of(lists.begin(), lists.end(), [](auto const* l) { return l->empty(); });
-    std::set<Edge> edges;
-    for_each_kind(body, [&](int kind, auto const& list) {
-      auto take = [&](Index number) {
-        if (number < 0 || std::size_t(number) >= list.size())
-          throw Error({},
-                      text("there is no ",
-                           element_kind_name(kind),
-                           ' ',
-                           number,
-                           " to refine: there are ",
-                           list.size(),
-                           ", numbered from 0"));
-        if (!isSimplex(kind)) refuse(kind);
-        forEachEdge(list[std::size_t(number)], [&](Edge const& e) { edges.insert(e); });
-      };
-      if (all)
-        for (std::size_t i = 0; i < list.size(); ++i) take(Index(i));
-      else
-        for (const Index i : *lists[std::size_t(kind)]) take(i);
-    });
-    auto squaredLength = [&](Edge const& e) {
-      return (rest[std::size_t(e[1])] - rest[std::size_t(e[0])]).squaredNorm();
-    };
-    std::vector<std::tuple<double, Edge>> byLength;
-    for (Edge const& e : edges) byLength.emplace_back(-squaredLength(e), e);
-    std::sort(byLength.begin(), byLength.end());
-    for (auto const& [length, e] : byLength) {
-      rank_[e] = Index(order_.size());
-      order_.push_back(e);
-    }
-    for_each_kind(body, [&](int kind, auto const& list) {
-      if (isSimplex(kind)) return;
-      for (auto const& element : list)
-        for (const Index a : element)
-          for (const Index b : element)
-            if (a < b && rank_.contains({a, b})) refuse(kind);
-    });
-  }
+  RefinedBody(TopologyView const& body, std::span<Eigen::Vector3d const> rest, ElementNumbers const& elements)
+      : body_(body), edges_(body, rest, elements), points_(rest.size()) {}
 
-  Refinement plan(std::size_t points) const {
+  Refinement plan() {
     Refinement r;
-    for (Edge const& e : order_) r.parts.points.push_back({e[0], e[1], 0.5});
-    split(ElementKind::edge, body_.edges, points, r.parts.edges, r);
-    split(ElementKind::triangle, body_.triangles, points, r.parts.triangles, r);
-    split(ElementKind::tetrahedron, body_.tetrahedra, points, r.parts.tetrahedra, r);
-    complete<3>(
-        body_.tetrahedra, r.parts.tetrahedra, body_.triangles, ElementKind::triangle, r.parts.triangles, r);
-    if (body_.tetrahedra.empty())
-      complete<2>(body_.triangles, r.parts.triangles, body_.edges, ElementKind::edge, r.parts.edges, r);
-    else
-      complete<2>(body_.tetrahedra, r.parts.tetrahedra, body_.edges, ElementKind::edge, r.parts.edges, r);
+    for (Edge const& e : edges_.inOrder()) r.parts.points.push_back({e[0], e[1], 0.5});
+    SplitCells cells(edges_, points_, r.parts.points);
+    split(ElementKind::edge, body_.edges, r.parts.edges, cells, r);
+    split(ElementKind::triangle, body_.triangles, r.parts.triangles, cells, r);
+    split(ElementKind::quad, body_.quads, r.parts.quads, cells, r);
+    split(ElementKind::tetrahedron, body_.tetrahedra, r.parts.tetrahedra, cells, r);
+    split(ElementKind::hexahedron, body_.hexahedra, r.parts.hexahedra, cells, r);
+    AddedElements const& parts = r.parts;
+    complete(
+        ElementKind::triangle,
+        body_.triangles,
+        r.parts.triangles,
+        r,
+        [&](auto&& f) { forEachFace(body_.tetrahedra, tetrahedronFaces, f); },
+        [&](auto&& f) { forEachFace(parts.tetrahedra, tetrahedronFaces, f); });
+    complete(
+        ElementKind::quad,
+        body_.quads,
+        r.parts.quads,
+        r,
+        [&](auto&& f) { forEachFace(body_.hexahedra, hexahedronFaces, f); },
+        [&](auto&& f) { forEachFace(parts.hexahedra, hexahedronFaces, f); });
+    const int dimension = dimension_of(body_);
+    auto forEachSide = [&](auto const& lists, auto&& f) {
+      for_each_kind(lists, [&](int kind, auto const& list) {
+        if (dimension_of_kind(kind) == dimension && (is_simplex(kind) || is_cell(kind)))
+          for (auto const& e : list) for_each_side(kind, e, f);
+      });
+    };
+    if (dimension > 1)
+      complete(
+          ElementKind::edge,
+          body_.edges,
+          r.parts.edges,
+          r,
+          [&](auto&& f) { forEachSide(body_, f); },
+          [&](auto&& f) { forEachSide(parts, f); });
     return r;
   }
 
  private:
   TopologyView const& body_;
-  std::vector<Edge> order_{};
-  std::map<Edge, Index> rank_{};
+  SplitEdges edges_;
+  std::size_t points_;
 
-  static bool isSimplex(int kind) {
-    return kind == int(ElementKind::edge) || kind == int(ElementKind::triangle) ||
-           kind == int(ElementKind::tetrahedron);
-  }
-  [[noreturn]] static void refuse(int kind) {
-    throw Error({},
-                text("a ",
-                     element_kind_name(kind),
-                     " is not refined while a scene runs; refine the mesh before (MeshSubdivision), or "
-                     "give the body tetrahedra or triangles"));
-  }
-  template <std::size_t N, class F>
-  static void forEachEdge(std::array<Index, N> const& element, F&& f) {
-    for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t k = i + 1; k < N; ++k)
-        f(Edge{std::min(element[i], element[k]), std::max(element[i], element[k])});
-  }
-
-  // its parts, in the order of the edges
+  // parts of an edge, a triangle or a tetrahedron, in the order of the split edges
   template <std::size_t N>
-  std::vector<std::array<Index, N>> parts(std::array<Index, N> const& element, std::size_t points) const {
+  std::vector<std::array<Index, N>> bisected(std::array<Index, N> const& element) const {
     std::vector<Index> splits;
-    forEachEdge(element, [&](Edge const& e) {
-      if (const auto found = rank_.find(e); found != rank_.end()) splits.push_back(found->second);
+    for_each_pair(element, [&](Edge const& e) {
+      if (const Index rank = edges_.rank(e); rank >= 0) splits.push_back(rank);
     });
     std::sort(splits.begin(), splits.end());
     std::vector<std::array<Index, N>> all{element};
     for (const Index s : splits) {
-      auto const [a, b] = order_[std::size_t(s)];
+      auto const [a, b] = edges_.inOrder()[std::size_t(s)];
       for (std::size_t p = 0, count = all.size(); p < count; ++p) {
         const auto atA = std::find(all[p].begin(), all[p].end(), a),
                    atB = std::find(all[p].begin(), all[p].end(), b);
         if (atA == all[p].end() || atB == all[p].end()) continue;
         auto other = all[p];
-        other[std::size_t(atA - all[p].begin())] = Index(points) + s;
-        *atB = Index(points) + s;
+        other[std::size_t(atA - all[p].begin())] = Index(points_) + s;
+        *atB = Index(points_) + s;
         all.push_back(other);
       }
     }
     return all;
   }
   template <std::size_t N>
-  void split(ElementKind kind, std::span<std::array<Index, N> const> list, std::size_t points,
-             std::vector<std::array<Index, N>>& come, Refinement& r) const {
+  std::vector<std::array<Index, N>> partsOf(int kind, std::array<Index, N> const& element,
+                                            SplitCells& cells) const {
+    if constexpr (N == 4 || N == 8)
+      if (is_cell(kind)) return cells.parts(element);
+    return bisected(element);
+  }
+  template <class Element>
+  void split(ElementKind kind, std::span<Element const> list, std::vector<Element>& come, SplitCells& cells,
+             Refinement& r) const {
+    auto& ancestors = r.parts.ancestors[std::size_t(kind)];
     for (std::size_t i = 0; i < list.size(); ++i) {
-      const auto all = parts(list[i], points);
+      const auto all = partsOf(int(kind), list[i], cells);
       if (all.size() == 1) continue;
       r.whole.of(int(kind)).push_back(Index(i));
       come.insert(come.end(), all.begin(), all.end());
-      r.parts.ancestors[std::size_t(kind)].insert(
-          r.parts.ancestors[std::size_t(kind)].end(), all.size(), Index(i));
+      ancestors.insert(ancestors.end(), all.size(), Index(i));
     }
   }
 
-  template <std::size_t F, std::size_t N, class Add>
-  static void forEachFace(std::array<Index, N> const& element, Add&& add) {
-    std::array<Index, F> face{};
-    auto choose = [&](auto const& self, std::size_t from, std::size_t have) -> void {
-      if (have == F) return add(sorted_corners(face));
-      for (std::size_t i = from; i < N; ++i) {
-        face[have] = element[i];
-        self(self, i + 1, have + 1);
+  template <class Elements, std::size_t Faces, std::size_t F, class Add>
+  static void forEachFace(Elements const& elements, std::size_t const (&corners)[Faces][F], Add&& add) {
+    for (auto const& element : elements)
+      for (auto const& face : corners) {
+        std::array<Index, F> f;
+        for (std::size_t c = 0; c < F; ++c) f[c] = element[face[c]];
+        add(f);
       }
-    };
-    choose(choose, 0, 0);
   }
-  // the faces with F corners that have come within elements, where all faces were listed
-  template <std::size_t F, std::size_t N>
-  static void complete(std::span<std::array<Index, N> const> elements,
-                       std::vector<std::array<Index, N>> const& parts,
-                       std::span<std::array<Index, F> const> listed, ElementKind kind,
-                       std::vector<std::array<Index, F>>& come, Refinement& r) {
-    if (listed.empty() || elements.empty()) return;
-    std::set<std::array<Index, F>> known, faces;
-    for (auto const& f : listed) known.insert(sorted_corners(f));
-    for (auto const& e : elements) forEachFace<F>(e, [&](auto const& f) { faces.insert(f); });
-    if (!std::includes(known.begin(), known.end(), faces.begin(), faces.end())) return;
-    for (auto const& f : come) known.insert(sorted_corners(f));
-    for (auto const& e : parts)
-      forEachFace<F>(e, [&](auto const& f) {
-        if (!known.insert(f).second) return;
-        come.push_back(f);
-        r.parts.ancestors[std::size_t(kind)].push_back(-1);
-      });
+  // the faces that have come within elements, where all faces of these were listed
+  template <class Face, class OfElements, class OfParts>
+  static void complete(ElementKind kind, std::span<Face const> listed, std::vector<Face>& come, Refinement& r,
+                       OfElements&& ofElements, OfParts&& ofParts) {
+    if (listed.empty()) return;
+    std::set<Face> known;
+    for (Face const& f : listed) known.insert(sorted_corners(f));
+    bool any = false, all = true;
+    ofElements([&](Face const& f) { any = true, all = all && known.contains(sorted_corners(f)); });
+    if (!any || !all) return;
+    for (Face const& f : come) known.insert(sorted_corners(f));
+    ofParts([&](Face const& f) {
+      if (!known.insert(sorted_corners(f)).second) return;
+      come.push_back(f);
+      r.parts.ancestors[std::size_t(kind)].push_back(-1);
+    });
   }
 };
 
@@ -197,7 +169,7 @@ namespace sinew {
 
 SINEW_ONCE Refinement plan_refinement(TopologyView const& body, std::span<Eigen::Vector3d const> rest,
                                       ElementNumbers const& elements) {
-  return detail::SplitEdges(body, rest, elements).plan(rest.size());
+  return detail::RefinedBody(body, rest, elements).plan();
 }
 
 }  // namespace sinew
