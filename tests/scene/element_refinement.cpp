@@ -206,16 +206,16 @@ TEST_CASE("what cannot be refined is refused, and the scene is what it was") {
   CHECK_THAT(error_of([&] { sim.refineElements("body", {.tetrahedra = {-1}}); }), Contains("tetrahedron -1"));
   CHECK_THAT(error_of([&] { sim.refineElements("nobody"); }), Contains("no topology at this path"));
   CHECK(sim.at<"body">().get<MeshTopology>().tetrahedra == block.tetrahedra);
-  std::vector<Vector3d> points;
-  for (int i = 0; i < 4; ++i) points.push_back({double(i % 2), double(i / 2), 0});
-  Simulation quad{node<"root">(EulerExplicitSolver{},
-                               MeshTopology{.quads = {{0, 1, 3, 2}}},
-                               MechanicalObject<Vec3d>{.position = points},
-                               UniformMass<Vec3d>{})};
-  quad.init();
-  CHECK_THAT(error_of([&] { quad.refineElements(""); }),
-             Contains("a quad is not refined while a scene runs"));
-  CHECK(quad.root().state().size() == 4);
+  Simulation prism{node<"root">(
+      EulerExplicitSolver{},
+      MeshTopology{.prisms = {{0, 1, 2, 3, 4, 5}}},
+      MechanicalObject<Vec3d>{.position = {{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {0, 1, 1}}},
+      UniformMass<Vec3d>{})};
+  prism.init();
+  CHECK_THAT(
+      error_of([&] { prism.refineElements(""); }),
+      Contains("prism 0 would be parted, and elements of its kind are not refined while a scene runs"));
+  CHECK(prism.root().state().size() == 6);
 }
 
 }  // namespace test_element_refinement
