@@ -369,4 +369,32 @@ TEST_CASE("elements of a scene file are refined while it runs") {
                     Catch::Contains("there is no triangle -5 to refine"));
 }
 
+TEST_CASE("quads and hexahedra of a scene file are refined while it runs") {
+  Scene scene{
+      parse_scene<Standard>("bar.scn", R"(<Node name="root" gravity="0 0 -9.81" dt="0.01"><Node name="bar">
+    <EulerImplicitSolver rayleighStiffness="0.01"/><CGLinearSolver iterations="200" tolerance="1e-12" threshold="0"/>
+    <MeshTopology hexahedra="0 1 4 3 6 7 10 9  1 2 5 4 7 8 11 10" quads="0 3 4 1  6 7 10 9"/>
+    <MechanicalObject position="0 0 0  1 0 0  2 0 0  0 1 0  1 1 0  2 1 0  0 0 1  1 0 1  2 0 1  0 1 1  1 1 1  2 1 1"/>
+    <DiagonalMass massDensity="2"/><HexahedronFEMForceField youngModulus="5000 9000" poissonRatio="0.3"/>
+    <FixedConstraint indices="0 3 6 9"/></Node></Node>)")
+          .root};
+  scene.init();
+  scene.animate(0.01);
+  scene.refineElements("bar", {.hexahedra = {0}});
+  auto const& bar = *scene.root().find_node("bar");
+  auto const& state = *bar.get<MechanicalObject<Vec3d>>();
+  // the first in 8, the second across in 4, and the faces of the first with it
+  CHECK(bar.get<MeshTopology>()->hexahedra.size() == 12);
+  CHECK(bar.get<MeshTopology>()->quads.size() == 8);
+  CHECK(state.size() == 4 * 9);
+  CHECK(bar.get<HexahedronFEMForceField<Vec3d>>()->youngModulus ==
+        std::vector<double>{5000, 5000, 5000, 5000, 5000, 5000, 5000, 5000, 9000, 9000, 9000, 9000});
+  CHECK(bar.get<FixedConstraint<Vec3d>>()->indices.size() == 9);
+  for (int i = 0; i < 20; ++i) scene.animate(0.01);
+  for (std::size_t i = 0; i < state.size(); ++i)
+    if (state.restPosition[i].x() == 2) CHECK(state.position[i].z() < state.restPosition[i].z());
+  CHECK_THROWS_WITH(scene.refineElements("bar", {.hexahedra = {12}}),
+                    Catch::Contains("there is no hexahedron 12 to refine"));
+}
+
 }  // namespace test_topological_changes

@@ -235,6 +235,19 @@ TEST_CASE("tetrahedra into which hexahedra are split have their values, and Unif
   sim.animate(0.01);
 }
 
+TEST_CASE("a mass that all points have is shared out, and one for each point is refused") {
+  const Mesh cube = block_of(2);
+  auto sim = scene(cube, DiagonalMass<Vec3d>{.vertexMass = {2}});
+  sim.init();
+  sim.refineElements("body");
+  CHECK(sim.at<"body">().get<DiagonalMass<Vec3d>>().lumped.mass.size() == 27);
+  CHECK(total(sim.at<"body">().get<DiagonalMass<Vec3d>>().lumped.mass) == Approx(16).epsilon(1e-14));
+  auto each = scene(cube, DiagonalMass<Vec3d>{.vertexMass = {1, 2, 3, 4, 5, 6, 7, 8}});
+  each.init();
+  CHECK_THAT(error_of([&] { each.refineElements("body"); }), Contains("has a value for each point"));
+  CHECK(each.at<"body">().state().size() == 8);
+}
+
 TEST_CASE("a plate of quads and its edges are refined, with the material of each quad and its load") {
   std::vector<Vector3d> points;
   for (int i = 0; i < 9; ++i) points.push_back({double(i % 3), double(i / 3), 0});
@@ -244,16 +257,18 @@ TEST_CASE("a plate of quads and its edges are refined, with the material of each
     if (i % 3 < 2) edges.push_back({i, i + 1});
     if (i < 6) edges.push_back({i, i + 3});
   }
-  Simulation sim{
-      node<"root">(EulerImplicitSolver{},
-                   solver(),
-                   node<"plate">(MeshTopology{.edges = edges, .quads = quads},
-                                 MechanicalObject<Vec3d>{.position = points},
-                                 DiagonalMass<Vec3d>{.massDensity = 5},
-                                 QuadBendingFEMForceField<Vec3d>{.youngModulus = {100, 200, 300, 400},
-                                                                 .poissonRatio = {0.1, 0.2, 0.3, 0.4}},
-                                 SurfacePressureForceField<Vec3d>{.pressure = 2, .quadIndices = {0}},
-                                 FixedConstraint<Vec3d>{.indices = {5, 8}}))};
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      solver(),
+      node<"plate">(MeshTopology{.edges = edges, .quads = quads},
+                    MechanicalObject<Vec3d>{.position = points},
+                    DiagonalMass<Vec3d>{.massDensity = 5},
+                    QuadBendingFEMForceField<Vec3d>{.youngModulus = {100, 200, 300, 400},
+                                                    .poissonRatio = {0.1, 0.2, 0.3, 0.4}},
+                    SurfacePressureForceField<Vec3d>{.pressure = 2, .quadIndices = {0}},
+                    FixedConstraint<Vec3d>{.indices = {5, 8}},
+                    node<"rim">(MeshTopology{
+                        .edges = {{0, 1}, {1, 2}, {2, 5}, {5, 8}, {8, 7}, {7, 6}, {6, 3}, {3, 0}}})))};
   sim.init();
   auto& plate = sim.at<"plate">();
   const auto sum = [&] {
@@ -268,6 +283,7 @@ TEST_CASE("a plate of quads and its edges are refined, with the material of each
   CHECK(plate.state().size() == 16);
   CHECK(plate.get<MeshTopology>().quads.size() == 9);
   CHECK(plate.get<MeshTopology>().edges.size() == 24);
+  CHECK(sim.at<"plate/rim">().get<MeshTopology>().edges.size() == 12);
   CHECK(plate.get<QuadBendingFEMForceField<Vec3d>>().youngModulus ==
         std::vector<double>{400, 100, 100, 100, 100, 200, 200, 300, 300});
   CHECK(plate.get<QuadBendingFEMForceField<Vec3d>>().poissonRatio ==

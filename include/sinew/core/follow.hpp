@@ -24,6 +24,7 @@ struct Followed {
   TopologyChange const& topology;
   /// Of a body that is cut: whether what joins two of its points still does, and between which then.
   std::function<bool(Index&, Index&)> joined{};
+  bool refined = false;  // whether all that comes is parts of what there was
 
   Renumbering const& numbered(Of what) const;
   int dimensionOf(Of what) const {

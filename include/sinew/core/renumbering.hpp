@@ -237,8 +237,6 @@ struct TopologyChange {
   Renumbering ofDimension(int dimension, std::size_t size) const;
   /// The highest dimension of which there were elements; 0 for none.
   int dimension() const;
-  /// Whether elements of that dimension come, and each is a part of one that was there.
-  bool parts() const;
 };
 
 }  // namespace sinew
@@ -343,14 +341,6 @@ SINEW_ONCE int TopologyChange::dimension() const {
   for (int kind = 0; kind < element_kinds; ++kind)
     if (!elements[std::size_t(kind)].now.empty()) highest = std::max(highest, dimension_of_kind(kind));
   return highest;
-}
-
-SINEW_ONCE bool TopologyChange::parts() const {
-  bool any = false, all = true;
-  for (int kind = 0; kind < element_kinds; ++kind)
-    if (dimension_of_kind(kind) == dimension())
-      for (Origin const& o : elements[std::size_t(kind)].come) any = true, all = all && !o.isNone();
-  return any && all;
 }
 
 }  // namespace sinew

@@ -66,8 +66,11 @@ struct DiagonalMass {
         "a mass");
   }
 
-  /// The density stays, not the total.
-  void follow(Followed const&) {
+  /// The density stays, not the total; of one mass for all points, where elements are refined, the total.
+  void follow(Followed const& change) {
+    if constexpr (!D::rigid)
+      if (change.refined && change.points.changes() && !vertexMass.empty())
+        vertexMass[0] *= MassType(double(change.points.now.size()) / double(change.points.size()));
     if (!totalMass) return;
     massDensity = density;
     totalMass.reset();

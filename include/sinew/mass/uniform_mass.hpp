@@ -47,7 +47,7 @@ struct UniformMass {
 
   /// What a point weighs stays, not the total; where points come since the body is cut or refined, the total.
   void follow(Followed const& change) {
-    if (change.points.come.empty() || !(change.joined || change.topology.parts())) return keepMassOfPoint();
+    if (change.points.come.empty() || !(change.joined || change.refined)) return keepMassOfPoint();
     if (!totalMass)
       totalMass = double(LumpedMass<D>::scalar(lumped.mass[0])) * double(change.points.now.size());
     vertexMass.reset();

@@ -177,11 +177,12 @@ class Simulation {
   TopologyChange addElements(std::string_view path, AddedElements const& elements);
 
   /// Parts elements of the topology of the node at a path from the root at the middles of their edges
-  /// (plan_refinement): edges in 2, triangles in 4, tetrahedra in 8, and of their neighbours what has one of
-  /// these edges; all where no number is given. Points and parts come as those of addElements do, with the
-  /// values of the elements that go, so that length, area, volume, strain, masses by density and momentum
-  /// stay. Returns what became of points and elements. Throws Error as addElements does, and for other
-  /// elements: nothing has changed then.
+  /// (plan_refinement): edges in 2, triangles and quads in 4, tetrahedra and hexahedra in 8, and of their
+  /// neighbours what has one of these edges, or one of a sheet of opposite sides with it; all where no number
+  /// is given. Points and parts come as those of addElements do, with the values of the elements that go, so
+  /// that length, area, volume, strain, mass, and, of masses by density, momentum stay. Returns what became
+  /// of points and elements. Throws Error as addElements does, and where a pyramid, a prism or an element of
+  /// second order would be parted: nothing has changed then.
   TopologyChange refineElements(std::string_view path, ElementNumbers const& elements = {});
 
   /// Cuts the topology of the node at a path from the root ("liver"), tetrahedra or else triangles, along

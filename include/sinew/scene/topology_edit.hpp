@@ -79,6 +79,7 @@ class TopologyEdit {
       throw Error(where, error.what());
     }
     whole_ = std::move(refinement.whole);
+    refined_ = true;
     planAddition(refinement.parts);
   }
   ElementNumbers const& whole() const { return whole_; }
@@ -122,6 +123,7 @@ class TopologyEdit {
   std::map<void const*, void const*> copies_{};   // of visual models with the faces of a topology: that
   CutPlan cut_{};
   ElementNumbers whole_{};
+  bool refined_ = false;
   std::list<CutPlan> carried_{};                  // of the surfaces that the body carries
   std::function<bool(Index&, Index&)> joined_{};  // of what joins points of the body that is cut
   std::vector<AddPlan::Lists> added_{};           // of topologies and visual models to which elements come
@@ -633,7 +635,8 @@ class TopologyEdit {
                        ofState(scope.stateAddress()),
                        {},
                        ofTopology(scope.topologyAddress()),
-                       samePoints_.contains(scope.stateAddress()) ? joined_ : nullptr});
+                       samePoints_.contains(scope.stateAddress()) ? joined_ : nullptr,
+                       refined_ && samePoints_.contains(scope.stateAddress())});
     }
   }
   static void give(ElementLists const& lists, AddPlan::Lists const& now, Renumbering const& points) {

@@ -260,9 +260,10 @@ std::vector<Element> outermost(std::vector<Element> const& list, std::vector<Ori
     if (!parted.contains(Index(e))) left.push_back(list[e]);
   return left;
 }
-inline std::vector<Edge> border_edges(std::span<Triangle const> triangles) {
-  constexpr std::size_t sides[3][2] = {{0, 1}, {1, 2}, {2, 0}};
-  return FacesOfElements<2>{}.add(triangles, sides).border();
+inline std::vector<Edge> border_edges(std::span<Triangle const> triangles, std::span<Quad const> quads = {}) {
+  constexpr std::size_t sides[3][2] = {{0, 1}, {1, 2}, {2, 0}},
+                        ofQuads[4][2] = {{0, 1}, {1, 2}, {2, 3}, {3, 0}};
+  return FacesOfElements<2>{}.add(triangles, sides).add(quads, ofQuads).border();
 }
 // two triangles of each quad, one behind the other, round as it is (1) or the other way (-1); 0: they are not
 inline int halves(std::span<Triangle const> triangles, std::span<Quad const> quads) {
@@ -354,12 +355,18 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
     t.changes = true;
     return true;
   }
-  const auto edgesWere = border_edges(from.triangles),
-             edgesAre = border_edges(outermost(source.lists.triangles, source.come[1]));
+  const auto triangles = outermost(source.lists.triangles, source.come[1]);
+  const auto edgesWere = border_edges(from.triangles);
   if (const int o =
           made("Triangle2EdgeTopologicalMapping", is.edges, ElementsThatFollow::listed(is.edges, edgesWere));
       o != 0 && !source.lists.triangles.empty()) {
-    t.border(0, t.lists.edges, edgesWere, edgesAre, o);
+    t.border(0, t.lists.edges, edgesWere, border_edges(triangles), o);
+    return true;
+  }
+  const auto rimWas = border_edges(from.triangles, from.quads);
+  if (const int o = ElementsThatFollow::listed(is.edges, rimWas); o != 0) {
+    const auto quads = outermost(source.lists.quads, source.come[2]);
+    t.border(0, t.lists.edges, rimWas, border_edges(triangles, quads), o);
     return true;
   }
   return false;

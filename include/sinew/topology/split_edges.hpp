@@ -112,7 +112,8 @@ SINEW_ONCE SplitEdges::SplitEdges(TopologyView const& body, std::span<Eigen::Vec
 
 // that what is parted can be, and no diagonal of a quad or a hexahedron is in the way
 SINEW_ONCE void SplitEdges::check(TopologyView const& body) const {
-  std::map<Edge, std::string> across;
+  const bool beside = !body.edges.empty() || !body.triangles.empty() || !body.tetrahedra.empty();
+  std::map<Edge, std::string> across;  // diagonals of what is parted
   for_each_kind(body, [&](int kind, auto const& list) {
     if (is_simplex(kind)) return;
     for (std::size_t e = 0; e < list.size(); ++e) {
@@ -145,7 +146,7 @@ SINEW_ONCE void SplitEdges::check(TopologyView const& body) const {
                                name(),
                                ", which has no point amid it; refine other elements than those with this "
                                "edge, or put them into a topology of their own"));
-            if ((between & split) != 0) across.emplace(diagonal, name());
+            if (beside && (between & split) != 0) across.emplace(diagonal, name());
           }
       }
     }
