@@ -248,6 +248,58 @@ TEST_CASE("a mass that all points have is shared out, and one for each point is 
   CHECK(each.at<"body">().state().size() == 8);
 }
 
+TEST_CASE("a load on a part of the skin and densities of hexahedra stay, with all faces and edges listed") {
+  const Mesh bar = regular_grid(3, 2, 2, {0, 0, 0}, {2, 1, 1});
+  std::vector<Quad> skin = border_of(bar).quads, faces = skin;
+  faces.push_back({1, 4, 10, 7});
+  std::vector<Edge> edges;
+  for (int i = 0; i < 12; ++i) {
+    if (i % 3 < 2) edges.push_back({i, i + 1});
+    if (i / 3 % 2 == 0) edges.push_back({i, i + 3});
+    if (i < 6) edges.push_back({i, i + 6});
+  }
+  // that at x = 2
+  const auto end = int(
+      std::find_if(skin.begin(),
+                   skin.end(),
+                   [](Quad q) { return std::all_of(q.begin(), q.end(), [](int i) { return i % 3 == 2; }); }) -
+      skin.begin());
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      solver(),
+      node<"bar">(MeshTopology{.edges = edges, .quads = faces, .hexahedra = bar.hexahedra},
+                  MechanicalObject<Vec3d>{.position = bar.positions},
+                  MeshMatrixMass<Vec3d>{.massDensity = {2, 6}},
+                  HexahedronFEMForceField<Vec3d>{},
+                  node<"skin">(MeshTopology{.quads = skin},
+                               SurfacePressureForceField<Vec3d>{.pressure = 3, .quadIndices = {end}})))};
+  sim.init();
+  for (int round = 0; round < 2; ++round) {
+    sim.refineElements("bar", {.hexahedra = {1}});
+    auto const& mesh = sim.at<"bar">().get<MeshTopology>();
+    std::size_t inside = 0;
+    for (std::size_t k = 0; k < mesh.hexahedra.size(); ++k) {
+      double x = 0;
+      for (const Index i : mesh.hexahedra[k])
+        x += sim.at<"bar">().state().restPosition[std::size_t(i)].x() / 8;
+      CHECK(sim.at<"bar">().get<MeshMatrixMass<Vec3d>>().massDensity[k] == (x < 1 ? 2 : 6));
+      inside += x > 1;
+    }
+    CHECK(inside >= 8);
+    // as many faces as there are: by Euler's formula of a ball
+    CHECK(sim.at<"bar">().state().size() + mesh.quads.size() ==
+          1 + mesh.edges.size() + mesh.hexahedra.size());
+    auto const& state = sim.at<"bar">().state();
+    std::vector<Vector3d> f(state.size(), Vector3d::Zero());
+    add_force(
+        sim.at<"bar/skin">().get<SurfacePressureForceField<Vec3d>>(), {}, f, state.position, state.velocity);
+    Vector3d all = Vector3d::Zero();
+    for (auto const& one : f) all += one;
+    CHECK((all - Vector3d(3, 0, 0)).norm() < 1e-14);
+  }
+  sim.animate(0.01);
+}
+
 TEST_CASE("a plate of quads and its edges are refined, with the material of each quad and its load") {
   std::vector<Vector3d> points;
   for (int i = 0; i < 9; ++i) points.push_back({double(i % 3), double(i / 3), 0});

@@ -411,7 +411,8 @@ class TopologyEdit {
         bool maps = false;
         scope.withMapped(c, [&](auto&, auto&, auto& parent) { maps = samePoints_.contains(&parent); });
         void const* const own = scope.topologyAddress();
-        if (maps && comes(ofTopology(own ? own : scope.parentScope().topologyAddress()), Of::elements))
+        if (maps && comesOfNone(ofTopology(own ? own : scope.parentScope().topologyAddress()),
+                                [](int) { return true; }))
           throw Error(text(scope.path(), ": ", component_name<C>()),
                       "it maps a value from each element, and some are to come; take it away");
       }
@@ -429,12 +430,19 @@ class TopologyEdit {
     }
   }
   // whether elements of a kind come that are parts of none
+  template <class OfKind>
+  static bool comesOfNone(TopologyChange const& change, OfKind&& ofKind) {
+    for (int kind = 0; kind < element_kinds; ++kind) {
+      auto const& come = change.elements[std::size_t(kind)].come;
+      if (ofKind(kind) && std::any_of(come.begin(), come.end(), [](Origin const& o) { return o.isNone(); }))
+        return true;
+    }
+    return false;
+  }
   static bool comes(TopologyChange const& change, Of what) {
     auto kinds = [&](std::initializer_list<int> all) {
-      return std::any_of(all.begin(), all.end(), [&](int kind) {
-        auto const& come = change.elements[std::size_t(kind)].come;
-        return std::any_of(come.begin(), come.end(), [](Origin const& o) { return o.isNone(); });
-      });
+      return comesOfNone(change,
+                         [&](int kind) { return std::find(all.begin(), all.end(), kind) != all.end(); });
     };
     switch (what) {
       case Of::edges:
@@ -450,8 +458,10 @@ class TopologyEdit {
         return kinds({4});
       case Of::volumes:
         return kinds({3, 4});
-      case Of::elements:  // pyramids, prisms and elements of second order never come
-        return kinds({0, 1, 2, 3, 4});
+      case Of::elements:  // those of the highest dimension
+        return comesOfNone(change, [&](int kind) {
+          return change.dimension() == 0 || dimension_of_kind(kind) == change.dimension();
+        });
       default:
         return false;
     }

@@ -44,10 +44,10 @@ struct TopologyOfBody {
 /// Puts elements behind those of topologies[first], over its points and those that come. Others follow that
 /// have the same elements of a kind, the border of its volumes or faces, or two triangles for each quad:
 /// faces that come inside go, those that are laid bare come behind what there is, each oriented as those
-/// before. So do those that follow these. An element whose parts come no longer counts for a border. A
-/// topology without elements follows by its conversion. Throws Error where a point or an ancestor is not
-/// there, an element has a point twice or is there already, a place is no number, and where elements of a
-/// higher dimension would make another body.
+/// before, and with the values of one in which it lies. So do those that follow these. An element whose parts
+/// come no longer counts for a border. A topology without elements follows by its conversion. Throws Error
+/// where a point or an ancestor is not there, an element has a point twice or is there already, a place is no
+/// number, and where elements of a higher dimension would make another body.
 AddPlan plan_addition(std::size_t points, std::vector<TopologyOfBody> const& topologies, std::size_t first,
                       AddedElements const& added);
 
@@ -55,6 +55,7 @@ AddPlan plan_addition(std::size_t points, std::vector<TopologyOfBody> const& top
 
 #if SINEW_DEFINES
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/old_corners.hpp>
 #include <sinew/topology/removal_plan.hpp>
 
 #include <algorithm>
@@ -199,20 +200,27 @@ struct ElementsThatFollow {
   /// A list that is a border, which is another one now.
   template <class Face>
   void border(int kind, std::vector<Face>& list, std::vector<Face> const& before,
-              std::vector<Face> const& after, int orientation) {
+              std::vector<Face> const& after, int orientation, OldCorners const& old) {
     const auto was = keys(before), is = keys(after);
     std::vector<Face> now;
+    std::map<Face, Index> gone;
     for (std::size_t f = 0; f < list.size(); ++f) {
       const bool here = std::binary_search(is.begin(), is.end(), sorted_corners(list[f]));
       stays[std::size_t(kind)][f] = here;
       changes = changes || !here;
-      if (here) now.push_back(list[f]);
+      if (here)
+        now.push_back(list[f]);
+      else
+        gone[sorted_corners(list[f])] = Index(f);
     }
     for (Face f : after) {
       if (std::binary_search(was.begin(), was.end(), sorted_corners(f))) continue;
       if (orientation < 0) std::reverse(f.begin(), f.end());
       now.push_back(f);
-      come[std::size_t(kind)].push_back(Origin::none());
+      const auto outer = old.around(f);
+      const auto whole = outer ? gone.find(*outer) : gone.end();
+      come[std::size_t(kind)].push_back(whole == gone.end() ? Origin::none()
+                                                            : Origin{whole->second, whole->second, 0});
       changes = true;
     }
     list = std::move(now);
@@ -249,15 +257,22 @@ struct ElementsThatFollow {
   }
 };
 
-// the elements without those in whose place their parts have come
+// the elements of a kind without those in whose place their parts have come
 template <class Element>
-std::vector<Element> outermost(std::vector<Element> const& list, std::vector<Origin> const& come) {
+std::vector<Element> outermost(ElementsThatFollow const& source, ElementKind kind,
+                               std::vector<Element> const& list) {
   std::set<Index> parted;
-  for (Origin const& o : come)
+  for (Origin const& o : source.come[std::size_t(kind)])
     if (!o.isNone()) parted.insert(o.a);
+  auto const& stays = source.stays[std::size_t(kind)];
   std::vector<Element> left;
-  for (std::size_t e = 0; e < list.size(); ++e)
-    if (!parted.contains(Index(e))) left.push_back(list[e]);
+  std::size_t now = 0;
+  for (std::size_t old = 0; old < stays.size(); ++old) {
+    if (!stays[old]) continue;
+    if (!parted.contains(Index(old))) left.push_back(list[now]);
+    ++now;
+  }
+  left.insert(left.end(), list.begin() + std::ptrdiff_t(now), list.end());
   return left;
 }
 inline std::vector<Edge> border_edges(std::span<Triangle const> triangles, std::span<Quad const> quads = {}) {
@@ -276,7 +291,8 @@ inline int halves(std::span<Triangle const> triangles, std::span<Quad const> qua
 }
 
 /// Follows a source where it is made of that; says whether it is.
-inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& source, bool isCopy) {
+inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& source, bool isCopy,
+                          OldCorners const& old) {
   TopologyView const &is = t.of.view, &from = source.of.view;
   const bool reversed = t.of.conversion.ends_with(" flipNormals");
   const std::string_view conversion = t.of.conversion.substr(0, t.of.conversion.find(' '));
@@ -315,22 +331,23 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
   auto made = [&](std::string_view by, auto const& list, int found) {
     return found != 0 ? found : list.empty() && conversion == by ? (reversed ? -1 : 1) : 0;
   };
-  const Border was = border_of(from), now = border_of(outermost(source.lists.tetrahedra, source.come[3]),
-                                                      outermost(source.lists.hexahedra, source.come[4]),
-                                                      source.lists.pyramids,
-                                                      source.lists.prisms,
-                                                      source.lists.quadraticTetrahedra,
-                                                      source.lists.quadraticHexahedra,
-                                                      source.lists.triquadraticHexahedra);
+  const Border was = border_of(from),
+               now = border_of(outermost(source, ElementKind::tetrahedron, source.lists.tetrahedra),
+                               outermost(source, ElementKind::hexahedron, source.lists.hexahedra),
+                               source.lists.pyramids,
+                               source.lists.prisms,
+                               source.lists.quadraticTetrahedra,
+                               source.lists.quadraticHexahedra,
+                               source.lists.triquadraticHexahedra);
   if (const int o = made("Tetra2TriangleTopologicalMapping",
                          is.triangles,
                          ElementsThatFollow::listed(is.triangles, was.triangles));
       o != 0 && !now.triangles.empty())
-    t.border(1, t.lists.triangles, was.triangles, now.triangles, o), any = true;
+    t.border(1, t.lists.triangles, was.triangles, now.triangles, o, old), any = true;
   if (const int o =
           made("Hexa2QuadTopologicalMapping", is.quads, ElementsThatFollow::listed(is.quads, was.quads));
       o != 0 && !now.quads.empty())
-    t.border(2, t.lists.quads, was.quads, now.quads, o), any = true;
+    t.border(2, t.lists.quads, was.quads, now.quads, o, old), any = true;
   if (any) return true;
   if (const int o = made("Quad2TriangleTopologicalMapping", is.triangles, halves(is.triangles, from.quads));
       o != 0 && !source.lists.quads.empty()) {
@@ -355,18 +372,18 @@ inline bool follow_source(ElementsThatFollow& t, ElementsThatFollow const& sourc
     t.changes = true;
     return true;
   }
-  const auto triangles = outermost(source.lists.triangles, source.come[1]);
+  const auto triangles = outermost(source, ElementKind::triangle, source.lists.triangles);
   const auto edgesWere = border_edges(from.triangles);
   if (const int o =
           made("Triangle2EdgeTopologicalMapping", is.edges, ElementsThatFollow::listed(is.edges, edgesWere));
       o != 0 && !source.lists.triangles.empty()) {
-    t.border(0, t.lists.edges, edgesWere, border_edges(triangles), o);
+    t.border(0, t.lists.edges, edgesWere, border_edges(triangles), o, old);
     return true;
   }
   const auto rimWas = border_edges(from.triangles, from.quads);
   if (const int o = ElementsThatFollow::listed(is.edges, rimWas); o != 0) {
-    const auto quads = outermost(source.lists.quads, source.come[2]);
-    t.border(0, t.lists.edges, rimWas, border_edges(triangles, quads), o);
+    const auto quads = outermost(source, ElementKind::quad, source.lists.quads);
+    t.border(0, t.lists.edges, rimWas, border_edges(triangles, quads), o, old);
     return true;
   }
   return false;
@@ -383,12 +400,13 @@ SINEW_ONCE AddPlan plan_addition(std::size_t points, std::vector<TopologyOfBody>
   std::vector<detail::ElementsThatFollow> all;
   for (TopologyOfBody const& t : topologies) all.emplace_back(t);
   all[first].add(added);
+  const OldCorners old(points, added.points);
   // those that follow it stand behind it, and may be followed themselves
   for (std::size_t t = 0; t < all.size(); ++t) {
     if (t == first) continue;
     for (std::size_t from = all.size(); from-- > 0;)
       if (from != t && all[from].changes && (from == first || from < t) &&
-          detail::follow_source(all[t], all[from], topologies[t].copies == int(from)))
+          detail::follow_source(all[t], all[from], topologies[t].copies == int(from), old))
         break;
   }
   for (auto& t : all) {
