@@ -11,6 +11,7 @@
 
 #include <Eigen/Geometry>
 #include <random>
+#include <set>
 
 namespace test_cell_refinement {
 
@@ -297,6 +298,44 @@ TEST_CASE("a load on a part of the skin and densities of hexahedra stay, with al
     for (auto const& one : f) all += one;
     CHECK((all - Vector3d(3, 0, 0)).norm() < 1e-14);
   }
+  sim.animate(0.01);
+}
+
+TEST_CASE(
+    "a mesh with all that grids list is refined as planned: nothing goes with the whole elements but these") {
+  Mesh m = regular_grid(3, 3, 3, {0, 0, 0}, {1, 1, 1});
+  std::set<Quad> faces;
+  std::set<Edge> sides;
+  for_each_quad_face({.hexahedra = m.hexahedra}, [&](Quad const& f) {
+    if (!faces.insert(sorted_corners(f)).second) return;
+    m.quads.push_back(f);
+    for (Triangle const& t : {Triangle{f[0], f[1], f[2]}, Triangle{f[0], f[2], f[3]}}) {
+      m.triangles.push_back(t);
+      for_each_side(1, t, [&](Edge const& e) { sides.insert(e); });
+    }
+  });
+  m.edges.assign(sides.begin(), sides.end());
+  Simulation sim{node<"root">(
+      EulerImplicitSolver{},
+      solver(),
+      MeshTopology{.edges = m.edges, .triangles = m.triangles, .quads = m.quads, .hexahedra = m.hexahedra},
+      MechanicalObject<Vec3d>{.position = m.positions},
+      DiagonalMass<Vec3d>{.massDensity = 1},
+      HexahedronFEMForceField<Vec3d>{})};
+  sim.init();
+  const TopologyView before{
+      .edges = m.edges, .triangles = m.triangles, .quads = m.quads, .hexahedra = m.hexahedra};
+  const Refinement plan = plan_refinement(before, m.positions, {.edges = {0}});
+  sim.refineElements("", {.edges = {0}});
+  auto const& now = sim.root().get<MeshTopology>();
+  REQUIRE(now.hexahedra.size() == 8 + 4);
+  CHECK(now.edges.size() == m.edges.size() - plan.whole.edges.size() + plan.parts.edges.size());
+  CHECK(now.triangles.size() ==
+        m.triangles.size() - plan.whole.triangles.size() + plan.parts.triangles.size());
+  CHECK(now.quads.size() == m.quads.size() - plan.whole.quads.size() + plan.parts.quads.size());
+  CHECK(total(sim.root().get<DiagonalMass<Vec3d>>().lumped.mass) == Approx(1).epsilon(1e-14));
+  sim.refineElements("");
+  CHECK(now.hexahedra.size() == 8 * 12);
   sim.animate(0.01);
 }
 

@@ -365,6 +365,64 @@ TEST_CASE("whichever hexahedra are refined, again and again, the body is whole")
   }
 }
 
+TEST_CASE("halves of quads and their diagonals are refined with these, as grids list them") {
+  for (const int points : {2, 3, 4}) {
+    Mesh m = cube(points);
+    std::set<Quad> faces;
+    std::set<Edge> sides;
+    for_each_quad_face({.hexahedra = m.hexahedra}, [&](Quad const& f) {
+      if (!faces.insert(sorted_corners(f)).second) return;
+      m.quads.push_back(f);
+      m.triangles.push_back({f[0], f[1], f[2]});
+      m.triangles.push_back({f[0], f[2], f[3]});
+    });
+    auto sidesOf = [](Mesh const& mesh) {
+      std::set<Edge> all = sides_of(mesh);
+      for (Triangle const& t : mesh.triangles) for_each_side(1, t, [&](Edge const& e) { all.insert(e); });
+      return all;
+    };
+    for (Edge const& e : sidesOf(m)) m.edges.push_back(e);
+    for (auto const& some : {ElementNumbers{.hexahedra = {0}},
+                             ElementNumbers{.triangles = {3}},
+                             ElementNumbers{.edges = {Index(m.edges.size()) / 2}},
+                             ElementNumbers{}}) {
+      const Mesh fine = refined(m, some);
+      check_conforming(fine);
+      CHECK(keys(fine.quads) == faces_of(fine));
+      CHECK(keys(fine.edges) == sidesOf(fine));
+      // each side of the cube is covered once, by as many triangles on each edge as there are
+      double area = 0;
+      std::map<Edge, int> around;
+      for (Triangle const& t : fine.triangles) {
+        auto at = [&](std::size_t k) { return fine.positions[std::size_t(t[k])]; };
+        if (at(0).z() != 0 || at(1).z() != 0 || at(2).z() != 0) continue;
+        area += (at(1) - at(0)).cross(at(2) - at(0)).norm() / 2;
+        for_each_side(1, t, [&](Edge const& e) { ++around[e]; });
+      }
+      CHECK(area == Approx(1).epsilon(1e-14));
+      double rim = 0;
+      for (auto const& [e, count] : around)
+        if (count == 1)
+          rim += (fine.positions[std::size_t(e[0])] - fine.positions[std::size_t(e[1])]).norm();
+        else
+          CHECK(count == 2);
+      CHECK(rim == Approx(4).epsilon(1e-14));
+      // all were refined: two halves for each quad
+      if (some.lists()[4]->empty() && some.triangles.empty() && some.edges.empty())
+        CHECK(fine.triangles.size() == 2 * fine.quads.size());
+    }
+  }
+  // a diagonal without its halves would lose its quads
+  Mesh crossed = plate(2);
+  crossed.edges = {{0, 3}, {0, 1}};
+  CHECK(error_of([&] { refined(crossed, {.edges = {1}}); }) ==
+        "edge 0 lies across quad 0, which would be parted; put it into a topology of its own");
+  const Mesh split = refined(crossed, {.edges = {0}});
+  CHECK(split.positions.size() == 9);
+  CHECK(split.quads.size() == 4);
+  CHECK(split.edges == std::vector<Edge>{{0, 8}, {8, 3}, {0, split.edges[2][1]}, {split.edges[2][1], 1}});
+}
+
 TEST_CASE("values that cannot be weighed are those of a corner") {
   Mesh m = cube(2);
   const Refinement plan = plan_refinement(view(m), m.positions, {});
@@ -432,8 +490,8 @@ TEST_CASE("what cannot be refined is refused") {
   Mesh crossed = m;
   crossed.edges = {{m.hexahedra[0][0], m.hexahedra[0][6]}};
   CHECK(refuse(crossed, {.edges = {0}}) ==
-        "edge 0 7 is a diagonal of hexahedron 0, which has no point amid it; refine other elements than "
-        "those with this edge, or put them into a topology of their own");
+        "edge 0 7 goes through hexahedron 0 from corner to corner, and would be split; refine other elements "
+        "than those with this edge, or put them into a topology of their own");
   CHECK(refuse(crossed, {.hexahedra = {0}}) ==
         "edge 0 lies across hexahedron 0, which would be parted; put it into a topology of its own");
   Mesh flat = m;

@@ -52,6 +52,14 @@ void for_each_side(int kind, std::array<Index, N> const& element, F&& f) {
   for_each_pair(element, f);
 }
 
+/// f(face) for each quad and each face of a hexahedron, corners in a circle.
+template <class F>
+void for_each_quad_face(TopologyView const& body, F&& f) {
+  for (Quad const& q : body.quads) f(q);
+  for (Hexahedron const& h : body.hexahedra)
+    for (auto const& face : hexahedronFaces) f(Quad{h[face[0]], h[face[1]], h[face[2]], h[face[3]]});
+}
+
 /// The sides of the quads and hexahedra of a body, those together that are of one sheet.
 class EdgeSheets {
  public:
@@ -72,6 +80,7 @@ class EdgeSheets {
       });
     });
   }
+  bool isSide(Edge const& e) const { return find(e) != none; }
   /// With these edges all that are of a sheet with one of them, in order and once.
   std::vector<Edge> whole(std::vector<Edge> edges) {
     std::vector<bool> split(sides_.size(), false);

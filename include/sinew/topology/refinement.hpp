@@ -22,8 +22,8 @@ struct Refinement {
 /// sheets of their opposite sides (SplitEdges). Empty numbers: all. What is listed beside elements in which
 /// it lies, edges of triangles, faces of hexahedra, is refined with them; a list of all edges, or of all
 /// faces, is one afterwards, too. Throws Error where a number leads nowhere, where a pyramid, a prism or an
-/// element of second order would be parted, or a cell with a point twice, and where an element lies along a
-/// diagonal of a quad or a hexahedron that is.
+/// element of second order would be parted, or a cell with a point twice, and where an edge goes through
+/// such a hexahedron from corner to corner, or lies across a quad without the two halves of it.
 Refinement plan_refinement(TopologyView const& body, std::span<Eigen::Vector3d const> rest,
                            ElementNumbers const& elements);
 
@@ -47,7 +47,6 @@ class RefinedBody {
 
   Refinement plan() {
     Refinement r;
-    for (Edge const& e : edges_.inOrder()) r.parts.points.push_back({e[0], e[1], 0.5});
     SplitCells cells(edges_, points_, r.parts.points);
     split(ElementKind::edge, body_.edges, r.parts.edges, cells, r);
     split(ElementKind::triangle, body_.triangles, r.parts.triangles, cells, r);
@@ -69,14 +68,15 @@ class RefinedBody {
         r,
         [&](auto&& f) { forEachFace(body_.hexahedra, hexahedronFaces, f); },
         [&](auto&& f) { forEachFace(parts.hexahedra, hexahedronFaces, f); });
-    const int dimension = dimension_of(body_);
-    auto forEachSide = [&](auto const& lists, auto&& f) {
-      for_each_kind(lists, [&](int kind, auto const& list) {
-        if (dimension_of_kind(kind) == dimension && (is_simplex(kind) || is_cell(kind)))
-          for (auto const& e : list) for_each_side(kind, e, f);
-      });
-    };
-    if (dimension > 1)
+    completeHalves(r);
+    for (const ElementKind of :
+         {ElementKind::tetrahedron, ElementKind::hexahedron, ElementKind::triangle, ElementKind::quad}) {
+      auto forEachSide = [&](auto const& lists, auto&& f) {
+        for_each_kind(lists, [&](int kind, auto const& list) {
+          if (kind == int(of))
+            for (auto const& e : list) for_each_side(kind, e, f);
+        });
+      };
       complete(
           ElementKind::edge,
           body_.edges,
@@ -84,6 +84,7 @@ class RefinedBody {
           r,
           [&](auto&& f) { forEachSide(body_, f); },
           [&](auto&& f) { forEachSide(parts, f); });
+    }
     return r;
   }
 
@@ -94,7 +95,8 @@ class RefinedBody {
 
   // parts of an edge, a triangle or a tetrahedron, in the order of the split edges
   template <std::size_t N>
-  std::vector<std::array<Index, N>> bisected(std::array<Index, N> const& element) const {
+  std::vector<std::array<Index, N>> bisected(std::array<Index, N> const& element,
+                                             SplitCells const& cells) const {
     std::vector<Index> splits;
     for_each_pair(element, [&](Edge const& e) {
       if (const Index rank = edges_.rank(e); rank >= 0) splits.push_back(rank);
@@ -108,8 +110,8 @@ class RefinedBody {
                    atB = std::find(all[p].begin(), all[p].end(), b);
         if (atA == all[p].end() || atB == all[p].end()) continue;
         auto other = all[p];
-        other[std::size_t(atA - all[p].begin())] = Index(points_) + s;
-        *atB = Index(points_) + s;
+        other[std::size_t(atA - all[p].begin())] = cells.middle(s);
+        *atB = cells.middle(s);
         all.push_back(other);
       }
     }
@@ -120,7 +122,7 @@ class RefinedBody {
                                             SplitCells& cells) const {
     if constexpr (N == 4 || N == 8)
       if (is_cell(kind)) return cells.parts(element);
-    return bisected(element);
+    return bisected(element, cells);
   }
   template <class Element>
   void split(ElementKind kind, std::span<Element const> list, std::vector<Element>& come, SplitCells& cells,
@@ -160,6 +162,27 @@ class RefinedBody {
       come.push_back(f);
       r.parts.ancestors[std::size_t(kind)].push_back(-1);
     });
+  }
+  // both halves of the quads that have come within hexahedra, where all quads were listed with theirs
+  void completeHalves(Refinement& r) const {
+    std::set<Triangle> listed;
+    for (Triangle const& t : body_.triangles) listed.insert(sorted_corners(t));
+    auto halved = [&](Quad const& q) {
+      auto has = [&](Index a, Index b, Index c) {
+        return listed.contains(sorted_corners(Triangle{a, b, c}));
+      };
+      return (has(q[0], q[1], q[2]) && has(q[0], q[2], q[3])) ||
+             (has(q[0], q[1], q[3]) && has(q[1], q[2], q[3]));
+    };
+    if (listed.empty() || !std::all_of(body_.quads.begin(), body_.quads.end(), halved)) return;
+    auto const& ancestors = r.parts.ancestors[std::size_t(ElementKind::quad)];
+    for (std::size_t k = 0; k < ancestors.size(); ++k)
+      if (Quad const& q = r.parts.quads[k]; ancestors[k] < 0) {
+        r.parts.triangles.push_back({q[0], q[1], q[2]});
+        r.parts.triangles.push_back({q[0], q[2], q[3]});
+        r.parts.ancestors[std::size_t(ElementKind::triangle)].insert(
+            r.parts.ancestors[std::size_t(ElementKind::triangle)].end(), 2, -1);
+      }
   }
 };
 

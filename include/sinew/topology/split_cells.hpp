@@ -16,9 +16,19 @@ namespace sinew {
 /// amid a face or a hexahedron is that between two new ones, the mean of the corners.
 class SplitCells {
  public:
-  /// Puts the new points behind the middles of the edges.
+  /// Numbers new points from `points` on, those amid edges first.
   SplitCells(SplitEdges const& edges, std::size_t points, std::vector<Origin>& come)
-      : edges_(edges), points_(points), come_(come) {}
+      : edges_(edges), points_(points), come_(come) {
+    auto const& diagonals = edges.diagonals();
+    for (Edge const& e : edges.inOrder()) {
+      middles_.push_back(Index(points + come.size()));
+      if (!diagonals.contains(e)) come.push_back({e[0], e[1], 0.5});
+    }
+    for (auto const& [e, face] : diagonals)
+      middles_[std::size_t(edges.rank(e))] = amid(std::array{face[0], face[1], face[3], face[2]});
+  }
+  /// The point amid a split edge, by its rank.
+  Index middle(Index rank) const { return middles_[std::size_t(rank)]; }
 
   /// x fastest; the cell itself where none of its edges is split.
   template <std::size_t N>
@@ -50,6 +60,7 @@ class SplitCells {
   SplitEdges const& edges_;
   std::size_t points_;
   std::vector<Origin>& come_;
+  std::vector<Index> middles_{};
   std::map<Quad, Index> ofFaces_{};
 
   // between the corners at both ends of each axis on which the place is in the middle
@@ -70,8 +81,7 @@ class SplitCells {
   Index amid(std::span<Index const> corners) {
     if (corners.size() == 1) return corners[0];
     if (corners.size() == 2)
-      return Index(points_) +
-             edges_.rank({std::min(corners[0], corners[1]), std::max(corners[0], corners[1])});
+      return middle(edges_.rank({std::min(corners[0], corners[1]), std::max(corners[0], corners[1])}));
     if (corners.size() == 8) return between(corners);
     const auto [known, fresh] =
         ofFaces_.try_emplace(sorted_corners(Quad{corners[0], corners[1], corners[2], corners[3]}), -1);
