@@ -3,6 +3,8 @@
 #include <sinew/contact.hpp>
 #include <sinew/mechanics.hpp>
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/edge_sheets.hpp>
+#include <sinew/topology/refinement.hpp>
 #include <sinew/topology/regular_grid.hpp>
 #include <sinew/topology/subdivision.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <sinew/topology/border.hpp>
+#include <sinew/topology/edge_sheets.hpp>
 #include <sinew/topology/hexahedra.hpp>
 #include <sinew/topology/refinement.hpp>
 #include <sinew/topology/regular_grid.hpp>
