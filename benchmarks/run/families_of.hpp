@@ -80,11 +80,12 @@ struct Body : State<D> {
   TopologyView lines() const { return {.positions = hexahedra.positions, .edges = edges}; }
 };
 
-/// `count`: elements or points of a force that has no driver.
+/// `count`: points of a force that has no driver. What has no derivative is not timed for one.
 template <class Force>
 void add_force(std::vector<Work>& list, std::string family, Force component,
                InitContext<typename Force::DataTypes> const& context,
-               std::shared_ptr<State<typename Force::DataTypes>> state, std::size_t count = 0) {
+               std::shared_ptr<State<typename Force::DataTypes>> state, std::size_t count = 0,
+               bool derivative = true) {
   auto force = std::make_shared<Force>(std::move(component));
   force->init(context);
   if constexpr (requires { force->driver; })
@@ -92,17 +93,20 @@ void add_force(std::vector<Work>& list, std::string family, Force component,
   const MechanicalParams p{.dt = 0.01, .b = -0.01, .k = -0.0001};
   list.push_back(
       {family, "addForce", count, [=] { sinew::add_force(*force, p, state->f, state->x, state->v); }});
-  list.push_back({family, "addDForce", count, [=] { sinew::add_dforce(*force, p, state->f, state->v); }});
+  if (derivative)
+    list.push_back({family, "addDForce", count, [=] { sinew::add_dforce(*force, p, state->f, state->v); }});
 }
 template <class Force>
 void add_force(std::vector<Work>& list, std::string family, Force component, TopologyView const& topology,
-               std::shared_ptr<Body<typename Force::DataTypes>> body, std::size_t count = 0) {
+               std::shared_ptr<Body<typename Force::DataTypes>> body, std::size_t count = 0,
+               bool derivative = true) {
   add_force(list,
             std::move(family),
             std::move(component),
             InitContext<typename Force::DataTypes>{"benchmark", body->rest, topology},
             std::shared_ptr<State<typename Force::DataTypes>>(body),
-            count);
+            count,
+            derivative);
 }
 
 /// Element laws, which run in lanes.
@@ -159,8 +163,9 @@ void add_mass(std::vector<Work>& list, std::string family, Mass component, Topol
 }
 
 template <class Mapping>
-void add_mapping(std::vector<Work>& list, std::string family, typename Mapping::In::VecCoord const& parent,
-                 TopologyView const& topology, typename Mapping::Out::VecCoord const& child) {
+void add_mapping(std::vector<Work>& list, std::string family, Mapping mapping,
+                 typename Mapping::In::VecCoord const& parent, TopologyView const& topology,
+                 typename Mapping::Out::VecCoord const& child) {
   using In = typename Mapping::In;
   using Out = typename Mapping::Out;
   struct State {
@@ -171,6 +176,7 @@ void add_mapping(std::vector<Work>& list, std::string family, typename Mapping::
     typename Out::VecDeriv v;
   };
   auto s = std::make_shared<State>();
+  s->mapping = std::move(mapping);
   s->in = parent;
   s->out = child;
   s->force.assign(parent.size(), In::Deriv::Zero());
@@ -233,10 +239,10 @@ std::vector<Work> points() {
   add_mass(list, "uniform mass", UniformMass<D>{.vertexMass = 1}, {}, body);
   add_mass(list, "diagonal mass", DiagonalMass<D>{.massDensity = 1}, b.volumes(false), body);
   add_mass(list, "consistent mass", MeshMatrixMass<D>{.massDensity = {1}}, b.volumes(false), body);
-  add_mapping<IdentityMapping<D, D>>(list, "identity mapping", b.x, {}, b.x);
-  add_mapping<BarycentricMapping<D, D>>(list, "barycentric, tetrahedra", b.rest, b.volumes(false), b.x);
-  add_mapping<BarycentricMapping<D, D>>(list, "barycentric, hexahedra", b.rest, b.volumes(true), b.x);
-  add_mapping<RigidMapping<Rigid, D>>(list, "rigid mapping", {typename Rigid::Coord{}}, {}, b.x);
+  add_mapping(list, "identity mapping", IdentityMapping<D, D>{}, b.x, {}, b.x);
+  add_mapping(list, "barycentric, tetrahedra", BarycentricMapping<D, D>{}, b.rest, b.volumes(false), b.x);
+  add_mapping(list, "barycentric, hexahedra", BarycentricMapping<D, D>{}, b.rest, b.volumes(true), b.x);
+  add_mapping(list, "rigid mapping", RigidMapping<Rigid, D>{}, {typename Rigid::Coord{}}, {}, b.x);
   add_linear<D>(list, body);
   return list;
 }

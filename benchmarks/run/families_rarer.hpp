@@ -30,6 +30,11 @@
 #include <sinew/force/triquadratic_hexahedron_fem.hpp>
 #include <sinew/force/uniform_velocity_damping.hpp>
 #include <sinew/force/vector_spring.hpp>
+#include <sinew/mapping/area_mapping.hpp>
+#include <sinew/mapping/distance_mapping.hpp>
+#include <sinew/mapping/skinning_mapping.hpp>
+#include <sinew/mapping/tubular_mapping.hpp>
+#include <sinew/mapping/volume_mapping.hpp>
 #include <sinew/topology/quadratic_elements.hpp>
 
 #include <algorithm>
@@ -129,24 +134,33 @@ std::vector<Work> rarer_forces() {
   add_force(list, "sphere penalty", SphereForceField<D>{.radius = 0.7}, {}, body);
   add_force(list, "ellipsoid penalty", EllipsoidForceField<D>{}, {}, body);
   add_force(list, "cone penalty", ConicalForceField<D>{}, {}, body);
+  std::vector<int> all(points), faces(b.triangles.size());
+  std::iota(all.begin(), all.end(), 0);
+  std::iota(faces.begin(), faces.end(), 0);
   add_force(list,
-            "load on triangles",
-            TrianglePressureForceField<D>{.pressure = D::Deriv::Constant(1)},
+            "load on triangles, a point",
+            TrianglePressureForceField<D>{.pressure = D::Deriv::Constant(1), .pressedElements = faces},
             b.surfaces(),
             body,
-            b.triangles.size());
+            points,
+            false);
   add_force(list,
-            "load on quads",
-            QuadPressureForceField<D>{.pressure = D::Deriv::Constant(1)},
-            quads,
+            "constant force",
+            ConstantForceField<D>{.totalForce = D::Deriv::Constant(1)},
+            {},
             body,
-            b.quads.size());
-  add_force(
-      list, "constant force", ConstantForceField<D>{.totalForce = D::Deriv::Constant(1)}, {}, body, points);
-  add_force(list, "torque", TorsionForceField<D>{.torque = 1, .axis = {0, 0, 1}}, {}, body, points);
+            points,
+            false);
+  add_force(list,
+            "torque",
+            TorsionForceField<D>{.indices = all, .torque = 1, .axis = {0, 0, 1}},
+            {},
+            body,
+            points,
+            false);
   add_force(list,
             "velocity damping",
-            UniformVelocityDampingForceField<D>{.dampingCoefficient = 1},
+            UniformVelocityDampingForceField<D>{.dampingCoefficient = 1, .implicit = true},
             {},
             body,
             points);
@@ -212,11 +226,41 @@ std::vector<Work> scalar_forces() {
   context.body = body.hexahedra.positions;
   add_force(list, "tetrahedron, diffusion", TetrahedronDiffusionFEMForceField<D>{}, context, state);
   add_force(list,
-            "tetrahedron, reaction",
+            "reaction in tetrahedra, a point",
             TetrahedronReactionFEMForceField<D>{.parameterSet = {1}},
             context,
             state,
-            body.tetrahedra.tetrahedra.size());
+            state->x.size());
+  return list;
+}
+
+/// Mappings of frames to points, and of points to their measures.
+template <class D>
+std::vector<Work> rarer_mappings() {
+  using Real = typename D::Real;
+  using Frames = RigidTypes<3, Real>;
+  using Scalars = VecTypes<1, Real>;
+  std::vector<Work> list;
+  const Body<D> body;
+  auto measured = [&]<class Mapping>(
+                      Mapping mapping, std::string family, TopologyView const& topology, std::size_t count) {
+    add_mapping(list, family, std::move(mapping), body.x, topology, typename Scalars::VecCoord(count));
+  };
+  measured(DistanceMapping<D, Scalars>{}, "lengths of edges", body.lines(), body.edges.size());
+  measured(AreaMapping<D, Scalars>{}, "areas of triangles", body.surfaces(), body.triangles.size());
+  measured(VolumeMapping<D, Scalars>{},
+           "volumes of tetrahedra",
+           body.volumes(false),
+           body.tetrahedra.tetrahedra.size());
+  typename Frames::VecCoord frames(16);
+  for (std::size_t i = 0; i < frames.size(); ++i) frames[i].center = body.rest[i * 80];
+  add_mapping(list, "skinning, four frames", SkinningMapping<Frames, D>{}, frames, {}, body.rest);
+  add_mapping(list,
+              "tubes around frames",
+              TubularMapping<Frames, D>{.nbPointsOnEachCircle = 64, .radius = 0.1},
+              frames,
+              {},
+              typename D::VecCoord(64 * frames.size()));
   return list;
 }
 

@@ -294,7 +294,7 @@ TEST_CASE("a container takes from a source what it can hold") {
   </Node>)");
   auto const &t = in<MeshTopology>(scene, "t"), &q = in<MeshTopology>(scene, "q"),
              &m = in<MeshTopology>(scene, "m");
-  CHECK((t.triangles.size() == 72 && t.quads.empty() && t.hexahedra.empty() && t.edges.size() == 54));
+  CHECK((t.triangles.size() == 72 && t.quads.empty() && t.hexahedra.empty() && t.edges.size() == 54 + 36));
   CHECK((q.quads.size() == 36 && q.triangles.empty() && q.hexahedra.empty()));
   CHECK((m.quads.size() == 36 && m.triangles.size() == 72 && m.hexahedra.size() == 8));
 }
@@ -602,7 +602,7 @@ TEST_CASE("a collision model over as many points as the topology above has its e
     sim.init();
     auto const& n = *sim.root().children()[0];
     CHECK(n.get<TriangleCollisionModel<Vec3d>>()->surface.elements.size() == 8);
-    CHECK(n.get<LineCollisionModel<Vec3d>>()->surface.elements.size() == 12);
+    CHECK(n.get<LineCollisionModel<Vec3d>>()->surface.elements.size() == 12 + 4);
     CHECK(n.get<MeshTopology>()->quads.size() == 4);
   }
   auto fewer = node(grid + "<Node name='n'><MechanicalObject position='0 0 0'/>" + models);

@@ -20,7 +20,7 @@ struct LinearBending {
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   static constexpr int arity = 4;
-  static constexpr bool usesVelocity = false;
+  static constexpr bool usesVelocity = false, oneByOne = true;
 
   struct Rest {
     Real weight[4];  // alpha

@@ -24,7 +24,7 @@ struct TetrahedronDiffusion {
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   static constexpr int arity = 4;
-  static constexpr bool usesVelocity = false, symmetricBlocks = true;
+  static constexpr bool usesVelocity = false, oneByOne = true, symmetricBlocks = true;
 
   struct Rest {
     Real exchange[6];  // s of 01, 02, 03, 12, 13, 23

@@ -43,7 +43,7 @@ struct VectorSpringLaw {
   using Coord = typename D::Coord;
   using Deriv = typename D::Deriv;
   static constexpr int arity = 2;
-  static constexpr bool usesVelocity = true;
+  static constexpr bool usesVelocity = true, oneByOne = true;
 
   struct Rest {
     Real stiffness, damping;
