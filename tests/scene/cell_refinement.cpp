@@ -409,7 +409,7 @@ TEST_CASE("triangles and quads of one body keep the values of their own") {
   sim.animate(0.01);
 }
 
-TEST_CASE("what cannot be refined is refused, and the scene is what it was") {
+TEST_CASE("cells that cannot be refined are refused, and the scene is what it was") {
   Mesh block = block_of(2);
   block.positions.push_back({0.5, 0.5, 2});
   Simulation sim{node<"root">(Gravity{{0, -2, 0}},

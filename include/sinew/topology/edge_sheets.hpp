@@ -31,7 +31,7 @@ constexpr int axes_between(std::size_t a, std::size_t b) {
 
 /// f(edge) for each two points of an element.
 template <std::size_t N, class F>
-void for_each_pair(std::array<Index, N> const& element, F&& f) {
+void for_each_edge(std::array<Index, N> const& element, F&& f) {
   for (std::size_t i = 0; i < N; ++i)
     for (std::size_t k = i + 1; k < N; ++k)
       f(Edge{std::min(element[i], element[k]), std::max(element[i], element[k])});
@@ -49,7 +49,7 @@ template <std::size_t N, class F>
 void for_each_side(int kind, std::array<Index, N> const& element, F&& f) {
   if constexpr (N == 4 || N == 8)
     if (is_cell(kind)) return for_each_cell_side(element, [&](int, Edge const& e) { f(e); });
-  for_each_pair(element, f);
+  for_each_edge(element, f);
 }
 
 /// f(face) for each quad and each face of a hexahedron, corners in a circle.

@@ -98,7 +98,7 @@ class RefinedBody {
   std::vector<std::array<Index, N>> bisected(std::array<Index, N> const& element,
                                              SplitCells const& cells) const {
     std::vector<Index> splits;
-    for_each_pair(element, [&](Edge const& e) {
+    for_each_edge(element, [&](Edge const& e) {
       if (const Index rank = edges_.rank(e); rank >= 0) splits.push_back(rank);
     });
     std::sort(splits.begin(), splits.end());

@@ -111,7 +111,7 @@ SINEW_ONCE std::vector<Edge> SplitEdges::split(TopologyView const& body, std::ve
   std::set<Edge> beside;
   for_each_kind(body, [&](int kind, auto const& list) {
     if (is_simplex(kind) && !(body.quads.empty() && body.hexahedra.empty()))
-      for (auto const& e : list) for_each_pair(e, [&](Edge const& pair) { beside.insert(pair); });
+      for (auto const& e : list) for_each_edge(e, [&](Edge const& pair) { beside.insert(pair); });
   });
   if (beside.empty()) return edges;
   auto isSplit = [&](Edge const& e) { return std::binary_search(edges.begin(), edges.end(), e); };
@@ -208,20 +208,20 @@ SINEW_ONCE void SplitEdges::check(TopologyView const& body) const {
       if constexpr (corners == 4 || corners == 8)
         checkCell(kind, e, list[e]);
       else
-        for_each_pair(list[e], [&](Edge const& pair) {
+        for_each_edge(list[e], [&](Edge const& pair) {
           if (rank(pair) >= 0) detail::refuse_refinement(kind, e);
         });
     }
   });
   if (across.empty()) return;
   std::set<Edge> sides;  // of triangles and tetrahedra, which stay those of their parts
-  for (Triangle const& t : body.triangles) for_each_pair(t, [&](Edge const& e) { sides.insert(e); });
-  for (Tetrahedron const& t : body.tetrahedra) for_each_pair(t, [&](Edge const& e) { sides.insert(e); });
+  for (Triangle const& t : body.triangles) for_each_edge(t, [&](Edge const& e) { sides.insert(e); });
+  for (Tetrahedron const& t : body.tetrahedra) for_each_edge(t, [&](Edge const& e) { sides.insert(e); });
   for_each_kind(body, [&](int kind, auto const& list) {
     for (std::size_t e = 0; e < list.size() && is_simplex(kind); ++e) {
       bool parted = false;
       auto lies = across.end();
-      for_each_pair(list[e], [&](Edge const& pair) {
+      for_each_edge(list[e], [&](Edge const& pair) {
         parted = parted || rank(pair) >= 0 || (kind == int(ElementKind::edge) && sides.contains(pair));
         if (lies == across.end()) lies = across.find(pair);
       });
