@@ -331,6 +331,12 @@ TEST_CASE("the levels of a regular body are cells of cells") {
   REQUIRE(m.levels() == 3);
   CHECK(m.fine.down.coarseRows() == 54);
   CHECK(m.coarse[0].down.coarseRows() == 2);
+  // also where aggregates are found anew after the body has moved
+  Multigrid moved = m;
+  for (auto& row : moved.modes) row[4] *= 1.1;
+  moved.reset();
+  moved.update(OneThread{}, body.matrix);
+  CHECK(moved.fine.down.aggregate == m.fine.down.aggregate);
   // whole neighbourhoods where the modes are those of no points in space
   Body other = body;
   for (auto& row : other.modes) row[3] = -row[3];

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 namespace sinew {
@@ -46,6 +47,7 @@ class Multigrid {
     fine.init(workers);
     modes.assign(fine.modes.size(), Row{});
     alone.clear();
+    looked = false;
     reset();
   }
   /// Finds aggregates and patterns anew at the next update.
@@ -63,7 +65,9 @@ class Multigrid {
       coarse.clear(), coarse.reserve(std::size_t(settings.levels));
       again = known && alone == firstAlone;
       finds = !known;
-      if (finds) firstAlone = alone, first.clear(), lattice = find_lattice(places());
+      if (finds) firstAlone = alone, first.clear();
+      if (!std::exchange(looked, true)) embedded = find_lattice(places());
+      if (!again && even()) lattice = embedded;
       known = true;
     }
     bool more = next(workers, fine, 0);
@@ -117,7 +121,9 @@ class Multigrid {
   std::vector<Aggregates> first{};
   std::vector<char> firstAlone{};
   bool known = false, again = false, finds = false;  // there are those; they are taken; they are looked for
-  Lattice lattice{};                                 // of the level that is looked at, then of the one below
+  Lattice embedded{};                                // where the points were at the first update after init
+  bool looked = false;
+  Lattice lattice{};  // of the level that is looked at, then of the one below
 
   template <class Vector>
   Eigen::Vector3d threeOf(Vector const& v, int i) const {
@@ -125,14 +131,11 @@ class Multigrid {
     for (int c = 0; c < 3 && 3 * i + c < dofs; ++c) three[c] = double(v[3 * i + c]);
     return three;
   }
-  // Where the points are, by their rotations, v = w x x, and not numbers of unknowns that are no points in
-  // space; none where stiffness is uneven, since cells do not keep to its borders. A corner of a body has a
-  // hundredth of the stiffness of its middle at least.
+  // where the points are, by their rotations, v = w x x; of unknowns that are no points in space, not numbers
   std::vector<Eigen::Vector3d> places() const {
     std::vector<Eigen::Vector3d> all;
-    double softest = 0, stiffest = std::numeric_limits<double>::max();  // |W|^2, of 1 / stiffness
-    for (std::size_t i = 0; 3 * i + 2 < modes.size(); ++i) {
-      Row const* const m = &modes[3 * i];
+    for (std::size_t i = 0; i + 2 < modes.size(); i += 3) {
+      Row const* const m = &modes[i];
       const Eigen::Vector3d x(m[1][5], m[2][3], m[0][4]);
       const Row expected[3] = {
           {1, 0, 0, 0, x[2], -x[1]}, {0, 1, 0, -x[2], 0, x[0]}, {0, 0, 1, x[1], -x[0], 0}};
@@ -140,12 +143,19 @@ class Multigrid {
       for (int r = 0; r < 3; ++r)
         for (int c = 0; c < 6; ++c) point = point && m[r][c] == expected[r][c];
       all.push_back(point ? x : Eigen::Vector3d(Eigen::Vector3d::Constant(NAN)));
+    }
+    return all;
+  }
+  // Whether cells may be aggregates: not where stiffness jumps, since they do not keep to its borders. A
+  // corner of a body has a hundredth of the stiffness of its middle at least.
+  bool even() const {
+    double softest = 0, stiffest = std::numeric_limits<double>::max();  // |W|^2, of 1 / stiffness
+    for (std::size_t i = 0; i < alone.size(); ++i) {
       if (alone[i]) continue;
       softest = std::max(softest, fine.unit.inverse[i].squaredNorm());
       stiffest = std::min(stiffest, fine.unit.inverse[i].squaredNorm());
     }
-    if (softest > 100 * stiffest) all.clear();
-    return all;
+    return softest <= 100 * stiffest;
   }
   template <class Matrix>
   bool solvable(Matrix const& a) const {
