@@ -77,8 +77,8 @@ std::array<double, 2> energies(double stiffness, double dt, double wall) {
 
 }  // namespace
 
-TEST_CASE(
-    "at two rates, a device that nobody holds comes to rest on a tool that is held, or floats with it") {
+TEST_CASE("at two rates, a device that nobody holds comes to rest on a tool that is held, or floats with it",
+          "[long]") {
   for (const double dt : {0.005, 0.01, 0.02})
     for (const double wall : {20., 300., 1e5}) {
       // K h^2 = 2 m, the rule of docs/haptics.md, and no stiffer than one rate alone allows

@@ -62,7 +62,7 @@ double front(Mesh const& mesh, Vec1d::VecCoord const& u, double h, double level)
 
 }  // namespace
 
-TEST_CASE("a front of Fisher, Kolmogorov, Petrovsky and Piskunov goes with 2 sqrt(D r)") {
+TEST_CASE("a front of Fisher, Kolmogorov, Petrovsky and Piskunov goes with 2 sqrt(D r)", "[long]") {
   const double D = 0.6, r = 1.5, h = 0.25, dt = 0.02, density = 3;
   const int n = 240;
   const Mesh mesh = bar(n, h);

@@ -114,7 +114,8 @@ TEST_CASE("a bolt that is turned in its nut advances by its pitch in a turn, and
 
 TEST_CASE(
     "a nut holds its bolt under its weight by friction above the slope of its thread, and lets it run "
-    "below") {
+    "below",
+    "[long]") {
   // With the lead angle l and the normal N of all contacts: m a = m g - N (cos l + mu sin l), and about the
   // axis I a / (r^2 tan l) = N (sin l - mu cos l).
   const double weight = mass * g, l = std::atan(slope);

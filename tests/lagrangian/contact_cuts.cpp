@@ -68,7 +68,7 @@ TEST_CASE(
   lies(convex);
 }
 
-TEST_CASE("where springs of a net are cut that lies on a ball, its edge slides down") {
+TEST_CASE("where springs of a net are cut that lies on a ball, its edge slides down", "[long]") {
   // 9 x 9 points, held by nothing but friction
   auto falls = [](auto solver) {
     std::vector<Vector3d> points;

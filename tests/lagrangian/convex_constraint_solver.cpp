@@ -82,7 +82,7 @@ auto several(Solver solver, double mu) {
 
 }  // namespace
 
-TEST_CASE("bodies of several solvers, with contacts and a joint, go as Gauss-Seidel on W has it") {
+TEST_CASE("bodies of several solvers, with contacts and a joint, go as Gauss-Seidel on W has it", "[long]") {
   for (const double mu : {0., 0.4}) {
     INFO(mu);
     auto one = several(convex, mu);

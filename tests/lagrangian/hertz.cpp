@@ -140,7 +140,7 @@ Pressed pressed(Solver solver, double depth, double cell, double fine, double gr
 
 }  // namespace
 
-TEST_CASE("an elastic cylinder on a plane: force, width and pressure converge to those of Hertz") {
+TEST_CASE("an elastic cylinder on a plane: force, width and pressure converge to those of Hertz", "[long]") {
   // of a contact 0.1 m wide on each side; the formulas are those of a half space there, with errors of the
   // order of the square of that over the radius
   const double width = 0.1,

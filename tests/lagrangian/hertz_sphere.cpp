@@ -168,7 +168,7 @@ Pressed pressed(double depth, double cell, double fine, double growth) {
 
 }  // namespace
 
-TEST_CASE("an elastic sphere on a plane: force, radius and pressure converge to those of Hertz") {
+TEST_CASE("an elastic sphere on a plane: force, radius and pressure converge to those of Hertz", "[long]") {
   // of a contact with a radius of 0.1 m
   const double width = 0.1, load = 4. / 3 * reduced * width * width * width / radius,
                depth = indentation(load);

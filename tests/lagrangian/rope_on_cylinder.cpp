@@ -64,7 +64,8 @@ auto rope_on_cylinder(Solver solver, double mu, double pull) {
 
 }  // namespace
 
-TEST_CASE("a rope over a cylinder holds below the ratio e^(mu phi) of its tensions, and slips above") {
+TEST_CASE("a rope over a cylinder holds below the ratio e^(mu phi) of its tensions, and slips above",
+          "[long]") {
   // how far its end goes from 0.06 to 0.12 s, after what is elastic has come to rest
   auto moved = [](auto solver, double mu, double part) {
     auto sim = rope_on_cylinder(solver, mu, part * std::exp(mu * M_PI));

@@ -61,7 +61,8 @@ double gap_of(Sim& sim) {
 }  // namespace
 
 TEST_CASE(
-    "a rod that turns by 0.1 to 0.5 rad a step about its end stays on it, with the spin of the first step") {
+    "a rod that turns by 0.1 to 0.5 rad a step about its end stays on it, with the spin of the first step",
+    "[long]") {
   // The centre, l from the end, goes straight on from its start, and is drawn to the circle by a force on the
   // end, of which the part across the lever turns the rod back: the first step turns by phi with
   //   phi = theta - (m l^2 / I) (sin phi - theta),   theta the turn that the velocities at the start make.

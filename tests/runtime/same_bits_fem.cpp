@@ -9,7 +9,7 @@ TEST_CASE("one tetrahedron: typed and runtime tree have the same bits") {
   same_bits::check(examples::one_tetrahedron(), 0.01);
 }
 
-TEST_CASE("the liver: typed and runtime tree have the same bits") {
+TEST_CASE("the liver: typed and runtime tree have the same bits", "[long]") {
   examples::LiverOptions options;
   options.tetrahedra = 300;
   const examples::LiverBody body = examples::make_body(options);

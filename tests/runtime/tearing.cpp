@@ -24,7 +24,7 @@ using Sim = Simulation<RuntimeNode<Few>>;
 
 }  // namespace
 
-TEST_CASE("a sheet with a notch tears from it, across the pull, into two") {
+TEST_CASE("a sheet with a notch tears from it, across the pull, into two", "[long]") {
   auto read = read_scene<Few>(std::string(SINEW_EXAMPLE_SCENES) + "/tear.scn");
   CHECK(read.warnings.empty());
   const double dt = read.dt;

@@ -167,7 +167,7 @@ TEST_CASE("states of all kinds, mappings and constraints are in one system") {
   CHECK((all(exact()) - ldl).norm() < 1e-8 * ldl.norm());
 }
 
-TEST_CASE("iterations hardly grow with the points, nor with stiffness that jumps") {
+TEST_CASE("iterations hardly grow with the points, nor with stiffness that jumps", "[long]") {
   // each eight times as many tetrahedra
   const int small = iterations({.cells = 3}), medium = iterations({.cells = 6}),
             large = iterations({.cells = 12});
