@@ -106,6 +106,26 @@ TEST_CASE("a rod of a scene file has its beams from the interpolation beside it,
   CHECK(other.root.find_node("BeamModel")->get<AdaptiveBeamMass<Rigid3d>>() == nullptr);
 }
 
+TEST_CASE("of values that are not one for each beam the first is that of all, as in SOFA, with a warning") {
+  auto scene = read("<Node name='BeamModel'>" + solvers + R"(
+    <MechanicalObject template="Rigid3d" position="0 0 0 0 0 0 1  2 0 0 0 0 0 1  4 0 0 0 0 0 1"/>
+    <MeshTopology name="lines" lines="0 1 1 2"/>
+    <BeamInterpolation radius="0.1 0.2" youngModulus="1e4 2e4 3e4" defaultPoissonRatio="0.4"/>
+    <AdaptiveBeamForceFieldAndMass massDensity="10"/></Node>)");
+  REQUIRE(scene.warnings.size() == 1);
+  CHECK_THAT(*scene.warnings.begin(),
+             Contains("youngModulus") &&
+                 Contains("has 3 entries for 2 of edges; the first is that of all, as in SOFA"));
+  Simulation sim{scene.root};
+  sim.init();
+  auto const& beams =
+      sim.root().find_node("BeamModel")->get<AdaptiveBeamForceField<Rigid3d>>()->interpolation;
+  REQUIRE(beams.size() == 2);
+  CHECK(beams[0].youngModulus == 1e4);
+  CHECK(beams[1].youngModulus == 1e4);
+  CHECK(beams[1].area == Approx(4 * beams[0].area));
+}
+
 TEST_CASE("a wire of a scene file is made of its sections and pushed by its controller") {
   auto scene = read(wire(R"(instruments="BeamInterpolation" topology="@MeshLines"
     startingPos="0 0 0  0 -0.7071068 0 0.7071068" xtip="0" rotationInstrument="0" step="5" speed="50" listening="1")",

@@ -11,6 +11,7 @@
 namespace test_value_text {
 
 using namespace sinew;
+using Bodies = std::vector<RigidMass<double, 3>>;
 
 namespace {
 
@@ -53,6 +54,15 @@ TEST_CASE("words become values") {
   CHECK(mass.mass == 2);
   CHECK(mass.inertia.diagonal() == Eigen::Vector3d(6, 8, 10));  // SOFA's inertia is by mass
   CHECK(read<RigidMass<double, 3>>("2").inertia(1, 1) == 2);
+  const auto masses = read<Bodies>(" 15 15 [20 0 0,0 20 0,0 0 20] 1 [1 0 0,0 2 0,0 0 3]");
+  REQUIRE(masses.size() == 2);
+  CHECK(masses[0].mass == 15);
+  CHECK(masses[0].inertia == 300 * Eigen::Matrix3d::Identity());
+  CHECK(masses[1].mass == 1);
+  CHECK(masses[1].inertia.diagonal() == Eigen::Vector3d(1, 2, 3));
+  CHECK(read<Bodies>("2 1  3 0 0 0 4 0 0 0 5").size() == 1);
+  CHECK(read<Bodies>("  ").empty());
+  CHECK(read<std::vector<RigidMass<double, 2>>>("2 1 [3] 4 1 [5]")[1].inertia(0, 0) == 20);
   const auto springs = read<std::vector<Spring>>("0 1 100 5 0.1  1 2 200 6 auto");
   REQUIRE(springs.size() == 2);
   CHECK(springs[1].damping == 6);
@@ -86,6 +96,9 @@ TEST_CASE("what is no value is refused, with the word that is wrong") {
   CHECK_THAT(refusal<Vec3d::VecCoord>("1 2 3 4"), Catch::Contains("ends where a number is expected"));
   const std::string one = refusal<RigidMass<double, 3>>("1 2 3");
   CHECK_THAT(one, Catch::Contains("here are 3 numbers"));
+  CHECK_THAT(refusal<Bodies>("1 1 [1 0 0,0 1 0,0 0 1] 2 1"), Catch::Contains("here are 2 numbers"));
+  CHECK_THAT(refusal<Bodies>("1 1 [1 0 0,0 1 0,0 0] 2 1 [1]"), Catch::Contains("here are 10 numbers"));
+  CHECK_THAT(refusal<Bodies>("1 2 3"), Catch::Contains("here are 3 numbers"));
   CHECK_THAT(refusal<double>(std::string(1000, 'x')), Catch::Contains("...'"));
 }
 
@@ -113,6 +126,13 @@ TEST_CASE("values go through words bit by bit") {
   const auto again = read<RigidMass<double, 3>>(write_value(mass));
   CHECK(again.inertia == mass.inertia);
   CHECK(again.mass == mass.mass);
+  const Bodies two{mass, {0.7, Eigen::Matrix3d::Random()}};
+  const auto both = read<Bodies>(write_value(two));
+  REQUIRE(both.size() == 2);
+  for (std::size_t i = 0; i < 2; ++i) {
+    CHECK(both[i].inertia == two[i].inertia);
+    CHECK(both[i].mass == two[i].mass);
+  }
 }
 
 TEST_CASE("values are written as C++") {

@@ -433,13 +433,21 @@ constexpr bool is_read_in_part(std::string_view className, std::string_view attr
     if (r.className == className && r.attribute == attribute) return true;
   return false;
 }
-/// Lists that have as many entries as another one, of which SOFA passes over further ones: here, too, with a
+/// Lists that have as many entries as another one. SOFA passes over further ones, or, with `firstForAll`, has
+/// the first entry for all where the numbers differ (BeamInterpolation.inl: checkDataSize): here, too, with a
 /// warning.
 struct AsManyAs {
   std::string_view className, list, other;
+  bool firstForAll = false;
 };
 inline constexpr std::array asManyAs =
-    std::to_array<AsManyAs>({{"LinearMovementConstraint", "movements", "keyTimes"}});
+    std::to_array<AsManyAs>({{"LinearMovementConstraint", "movements", "keyTimes"},
+                             {"BeamInterpolation", "radius", "edges", true},
+                             {"BeamInterpolation", "innerRadius", "edges", true},
+                             {"BeamInterpolation", "lengthY", "edges", true},
+                             {"BeamInterpolation", "lengthZ", "edges", true},
+                             {"BeamInterpolation", "defaultYoungModulus", "edges", true},
+                             {"BeamInterpolation", "defaultPoissonRatio", "edges", true}});
 
 template <class List>
 constexpr bool has(List const& list, std::string_view word) {

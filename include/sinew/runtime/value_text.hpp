@@ -110,10 +110,16 @@ void read_words(Words& words, T& value);
 template <class Real, int Dim>
 void read_rigid_mass(Words& words, RigidMass<Real, Dim>& value) {
   std::vector<Real> numbers;
-  while (!words.end()) numbers.push_back(read_number<Real>(words.next()));
+  const bool bracket = words.rest().find('[') != std::string_view::npos;
+  std::size_t before = 0;  // of the numbers, before that
+  while (!words.end()) {
+    before += words.rest().find('[') != std::string_view::npos;
+    numbers.push_back(read_number<Real>(words.next()));
+  }
   constexpr std::size_t n = Dim == 3 ? 9 : 1;
   value = {};
-  if (numbers.size() != 1 && numbers.size() != n + 1 && numbers.size() != n + 2)
+  if (!bracket && numbers.size() > 1) before = std::max(numbers.size(), n) - n;
+  if (numbers.size() != 1 && (numbers.size() != n + before || before < 1 || before > 2))
     throw Error("",
                 text("a rigid mass is a mass, or mass, volume and the ",
                      n,
@@ -292,6 +298,22 @@ inline std::string join_lists(std::vector<std::string> const& lists) {
   return all;
 }
 
+/// The masses of rigid bodies, of which each inertia stands in brackets: "15 15 [20 0 0,0 20 0,0 0 20] 1 1
+/// [...]".
+template <class T>
+concept ListOfRigidMasses = DynamicList<T> && requires(T list) { list.front().inertia; };
+
+/// The words of each, which end with a bracket; those of a single one need none.
+inline std::vector<std::string_view> split_rigid_masses(std::string_view all) {
+  std::vector<std::string_view> masses;
+  while (!Words(all).end()) {
+    const std::size_t end = std::min(all.find(']'), all.size() - 1) + 1;
+    masses.push_back(all.substr(0, end));
+    all.remove_prefix(end);
+  }
+  return masses;
+}
+
 inline void append_number(std::string& to, double value) {
   char buffer[40];
   to.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value).ptr);
@@ -377,6 +399,10 @@ void read_value(std::string_view text_, T& value) {
     T lists{};
     for (auto const& list : detail::split_lists(text_)) read_value(list, lists.emplace_back());
     return void(value = std::move(lists));
+  } else if constexpr (detail::ListOfRigidMasses<T>) {
+    T masses{};
+    for (auto const& mass : detail::split_rigid_masses(text_)) read_value(mass, masses.emplace_back());
+    return void(value = std::move(masses));
   }
   Words words(text_);
   T read{};
@@ -403,6 +429,9 @@ std::string write_value(T const& value) {
   std::string words;
   if constexpr (detail::ListOfLists<T>)
     for (auto const& list : value) words += text(words.empty() ? "[" : " [", write_value(list), ']');
+  else if constexpr (detail::ListOfRigidMasses<T>)
+    for (auto const& of : value)
+      words += text(words.empty() ? "" : " ", write_value(of.mass), " [", write_value(of.inertia), ']');
   else
     detail::write_words(words, value);
   return words;

@@ -80,10 +80,10 @@ class SceneValues {
     }
     place(item, placing);
     for (auto const& a : more) moveFurther(item, a);
-    shorten(item);
     if (item.info->role == RoleKind::engine) implied_.pairOfStates(item, given);
     if (item.info->role == RoleKind::engine && !item.element->attribute("src"))
       implied_.surroundings(item, given);
+    fitLists(item);
     if (item.info->role == RoleKind::state) implied_.statePoints(item, given);
     messages_.locate(item, [&] {
       component(item).checkFields("");
@@ -304,7 +304,7 @@ class SceneValues {
     return part;
   }
   // further entries of a list that has as many as another one are left out
-  void shorten(SceneItem& item) {
+  void fitLists(SceneItem& item) {
     for (auto const& rule : dialect::asManyAs) {
       if (rule.className != item.info->name || item.failed) continue;
       FieldInfo const &list = *item.info->field(rule.list), &other = *item.info->field(rule.other);
@@ -312,13 +312,17 @@ class SceneValues {
         return f.type->entries(static_cast<char*>(item.address) + f.offset);
       };
       const std::size_t n = count(list), wanted = count(other);
-      auto const* a = item.element->attribute(rule.list);
-      if (wanted == 0 || n <= wanted || !a) continue;
+      auto const& given = item.element->attributes;
+      const auto a =
+          std::find_if(given.begin(), given.end(), [&](auto const& one) { return list.known(one.name); });
+      if (wanted == 0 || a == given.end() || (rule.firstForAll ? n < 2 || n == wanted : n <= wanted))
+        continue;
       std::vector<std::string> words;
       const std::string all = list.write(item.address);
       for (Words w(all); !w.end();) words.emplace_back(w.next());
       std::string first;
-      for (std::size_t k = 0; k < words.size() / n * wanted; ++k) first += text(words[k], ' ');
+      for (std::size_t k = 0; k < words.size() / n * (rule.firstForAll ? 1 : wanted); ++k)
+        first += text(words[k], ' ');
       list.read(item.address, first);
       warn(item,
            *a,
@@ -328,7 +332,8 @@ class SceneValues {
                 wanted,
                 " of ",
                 rule.other,
-                "; the first ones are taken, as in SOFA"));
+                rule.firstForAll ? "; the first is that of all, as in SOFA"
+                                 : "; the first ones are taken, as in SOFA"));
     }
   }
 };
