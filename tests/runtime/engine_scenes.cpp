@@ -122,6 +122,22 @@ TEST_CASE("engines take points and elements from what they name, or what is arou
   CHECK(only<VolumeFromTriangles<Vec3d>>(volume).volume == Approx(2 / 6.));
 }
 
+TEST_CASE("a mesh comes from a visual model that stands beside the state which is made of it") {
+  for (std::string const& taken :
+       {"src='@Visual'", "position='@Visual.position' triangles='@Visual.triangles'"}) {
+    auto scene = read(
+        "<OglModel name='Visual' position='0 0 0  1 0 0  0 1 0  1 1 0' triangles='0 1 2  1 3 2' dz='2'/>"
+        "<MeshTopology name='topo' " +
+        taken +
+        "/><PointsFromIndices name='some' position='@topo.position' indices='3 1'/>"
+        "<MechanicalObject position='@some.indices_position'/>");
+    CHECK(only<MechanicalObject<Vec3d>>(scene).position == Points{{1, 1, 2}, {1, 0, 2}});
+    CHECK(only<MeshTopology>(scene).triangles == std::vector<Triangle>{{0, 1, 2}, {1, 3, 2}});
+  }
+  CHECK_THAT(error_of([] { read("<Node name='below'/><MeshTopology src='@below'/>"); }),
+             Contains("'@below' leads to no loader"));
+}
+
 TEST_CASE("what SOFA reads in part is read so, with a warning") {
   auto solver = read("<EulerImplicitSolver/><CGLinearSolver iterations='1e4'/>");
   CHECK(only<CGLinearSolver<>>(solver).iterations == 1);

@@ -32,9 +32,9 @@ class ComponentValues {
   /// The words of a field of a component, which is made for that if it is not yet.
   std::string valueOf(LinkTarget target) {
     if (!target.item) {
-      if (!target.place->ofRole(RoleKind::state))
+      target.item = target.place->meant();
+      if (!target.item)
         throw Error("", text("leads to the node '", target.place->name, "'; link to a component"));
-      target.item = target.place->ofRole(RoleKind::state);
     }
     SceneItem& item = *target.item;
     if (!item.info) throw Error("", text("leads to ", item.name, ", which is wrong itself"));
@@ -64,7 +64,7 @@ class ComponentValues {
   }
   /// How many numbers a value has of the list to which a link leads; 0 where that is not known.
   std::size_t sizeOfValues(LinkTarget const& target) {
-    SceneItem* const item = target.item ? target.item : target.place->ofRole(RoleKind::state);
+    SceneItem* const item = target.item ? target.item : target.place->meant();
     FieldInfo const* const field = item && item->info ? offered(*item->info, target.data) : nullptr;
     if (!field) return 0;
     if (item->info->traits.sizedValues && !field->isInput && field->kind == "list of number") {
@@ -81,7 +81,7 @@ class ComponentValues {
   }
   /// The same for a field of a component: points in space are frames that are not rotated.
   std::string linkedValue(SceneItem& item, FieldInfo const& field, LinkTarget target) {
-    if (!target.item) target.item = target.place->ofRole(RoleKind::state);
+    if (!target.item) target.item = target.place->meant();
     const std::string types = target.item && target.item->info ? target.item->info->dataTypes : "Rigid3d";
     FieldInfo const* const from =
         target.item && target.item->info ? offered(*target.item->info, target.data) : nullptr;

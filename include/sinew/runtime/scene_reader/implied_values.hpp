@@ -23,7 +23,8 @@ class ImpliedValues {
   /// src="@loader": all that the loader offers under the name of a field that is not given.
   void source(SceneItem& item, XmlAttribute const& src, std::set<std::string_view>& given) {
     try {
-      const LinkTarget target = follow_link(item, src.value);
+      LinkTarget target = follow_link(item, src.value);
+      if (!target.item) target.item = target.place->meant();
       if (!target.item || !target.item->info)
         throw Error("", text(shown(src.value), " leads to no loader; link to a component"));
       checkOrder(item, *target.item);
