@@ -102,7 +102,7 @@ TEST_CASE("boxes, segments and triangles in one another are as deep as the best 
     return true;
   };
   int deep = 0;
-  for (int i = 0; i < 300; ++i) {
+  for (int i = 0; i < 120; ++i) {
     INFO(i);
     const ConvexHull first = ConvexHull::box(random.vector(0.4) + V(0.5, 0.6, 0.7)),
                      second = ConvexHull::box(random.vector(0.4) + V(0.5, 0.6, 0.7)),
@@ -118,7 +118,7 @@ TEST_CASE("boxes, segments and triangles in one another are as deep as the best 
     const std::array<V, 3> t{random.vector(1.5), random.vector(1.5), random.vector(1.5)};
     deep += check(a, t, [&t](V const& d) { return std::array<V, 3>{t[0] + d, t[1] + d, t[2] + d}; });
   }
-  CHECK(deep > 300);
+  CHECK(deep > 120);
   // along the axes, where many directions are as good: 0.3 m of 1 m
   const ConvexHull cube = ConvexHull::box({0.5, 0.5, 0.5});
   const ConvexContact c = convex_contact(PosedHull{cube}, PosedHull{cube, rigid_at({0.1, 0.7, 0})});

@@ -38,7 +38,7 @@ auto fem(Mesh const& mesh, int threads) {
   return Simulation{node<"root">(Threads{.count = threads},
                                  Gravity{},
                                  EulerImplicitSolver{.rayleighStiffness = 0.01},
-                                 CGLinearSolver<Matrix>{.iterations = 8, .tolerance = 0},
+                                 CGLinearSolver<Matrix>{.iterations = 3, .tolerance = 0},
                                  TetrahedronTopology{mesh.tetrahedra},
                                  MechanicalObject<D>{points<D>(mesh)},
                                  UniformMass<D>{.totalMass = 1},
