@@ -49,8 +49,7 @@ double strain(Frames const& x, std::vector<RodBeam> const& beams, std::size_t i)
 
 }  // namespace
 
-TEST_CASE("a wire is pushed out of its sheath, keeps its length, and its tip curls as it comes out",
-          "[long]") {
+TEST_CASE("a wire is pushed out of its sheath, keeps its length, and its tip curls as it comes out") {
   const auto shape = curved_wire();
   Rigid3d::Coord start = Rigid3d::zero();
   start.center = {0.1, 0.2, 0.3};

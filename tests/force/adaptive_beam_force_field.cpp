@@ -301,7 +301,7 @@ TEST_CASE("a rod bends and twists as the closed forms say") {
 
 // A rod with the curvature 1/R at rest becomes an arc of the angle L/R: here three quarters of a circle, from
 // straight.
-TEST_CASE("a rod with a curvature at rest curls to its circle", "[long]") {
+TEST_CASE("a rod with a curvature at rest curls to its circle") {
   const double R = 1 / (1.5 * pi);
   RodSection curl = wire;
   curl.spireDiameter = 2 * R;

@@ -260,7 +260,7 @@ TEMPLATE_TEST_CASE(
 
 // u = grad phi, phi = exp(sqrt(2) x) sin y sin z / 2 has div u = 0 and laplacian u = 0: no load. Between n
 // and 3/2 n elements a side the error of displacements falls by 1.5^3, that of linear elements by 1.5^2.
-TEMPLATE_TEST_CASE("displacements converge by the third power of the size", "[long]", Tet10, Hex20, Hex27) {
+TEMPLATE_TEST_CASE("displacements converge by the third power of the size", "", Tet10, Hex20, Hex27) {
   using S = typename TestType::Shape;
   const double r = std::sqrt(2.);
   auto exact = [&](Vector3d const& p) -> Vector3d {
