@@ -69,9 +69,9 @@ struct ScenePlace {
   /// The component that a link to the node means: its state, or a visual model that has its name, which in
   /// SOFA stands in the node above (split_visuals.hpp).
   SceneItem* meant() const {
-    if (SceneItem* const state = ofRole(RoleKind::state)) return state;
-    SceneItem* const visual = ofRole(RoleKind::visualModel);
-    return visual && visual->name == name ? visual : nullptr;
+    if (SceneItem* const own = ofRole(RoleKind::state)) return own;
+    SceneItem* const shown = ofRole(RoleKind::visualModel);
+    return shown && shown->name == name ? shown : nullptr;
   }
   /// The nearest node upwards, from this one on, that has a state.
   ScenePlace const* owner() const { return !state.empty() ? this : parent ? parent->owner() : nullptr; }
