@@ -245,8 +245,7 @@ void resets_and_repeats(Solvers... solvers) {
 
 }  // namespace
 
-TEST_CASE("sources and sinks repeat after a reset, in copies and with any number of threads",
-          "[threads]") {
+TEST_CASE("sources and sinks repeat after a reset, in copies and with any number of threads", "[threads]") {
   SECTION("explicit") { resets_and_repeats(EulerExplicitSolver{}); }
   SECTION("implicit") { resets_and_repeats(EulerImplicitSolver{}, CGLinearSolver<>{}); }
   SECTION("of several stages") { resets_and_repeats(RungeKutta4Solver{}); }
