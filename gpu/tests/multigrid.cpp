@@ -145,7 +145,7 @@ TEST_CASE("multigrid on the device finds what the processor's finds") {
 TEST_CASE("a cycle on the device is the processor's: as many iterations, flat with the mesh") {
   const bool whole = GENERATE(true, false);
   const Whole kernel(whole);
-  for (const int cells : {4, 6, 10}) {
+  for (const int cells : {4, 6, 10, 14}) {
     const Beam beam{.cells = cells};
     const Count device = count<CudaVec3d>(beam), host = count<Vec3d>(beam), floats = count<CudaVec3f>(beam);
     INFO(cells << " cells: " << device.iterations << " of the device, " << floats.iterations << " in float, "

@@ -303,7 +303,7 @@ class SceneValues {
     warn(item, written, text("has ", count, " numbers; the first ", most, " are taken, as in SOFA"));
     return part;
   }
-  // further entries of a list that has as many as another one are left out
+  // of a list that has as many entries as another one further ones are left out, or the first is for all
   void fitLists(SceneItem& item) {
     for (auto const& rule : dialect::asManyAs) {
       if (rule.className != item.info->name || item.failed) continue;
