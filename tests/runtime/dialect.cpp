@@ -643,7 +643,7 @@ TEST_CASE("what has no effect on a picture, or on a response that is named, is t
 }
 
 TEST_CASE("what old scenes say beside is ignored") {
-  auto scene = parse(R"(<Node multiThreadSimulation="1">
+  auto scene = parse(R"(<Node multiThreadSimulation="1" currentLevel="0" coarsestLevel="3" finestLevel="0">
     <CollisionGroupManager/> <NaturalOrderingMethod/> <MatrixLinearSystem/>
     <EulerImplicitSolver computeResidual="1"/> <EigenSimplicialLDLT ordering="Natural" iterations="25"
       tolerance="1e-9" threshold="1e-9"/>

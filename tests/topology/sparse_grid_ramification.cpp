@@ -177,6 +177,26 @@ TEST_CASE("without finer levels cells are apart where no surface crosses their f
                            .points);
 }
 
+TEST_CASE("without connectivity of the finest cells points will do, which cells hold and shut in") {
+  std::vector<Eigen::Vector3d> cloud;  // a hollow cube, and a point beside it
+  for (int k = 0; k < 8; ++k)
+    for (int j = 0; j < 8; ++j)
+      for (int i = 0; i < 8; ++i)
+        if (i % 7 == 0 || j % 7 == 0 || k % 7 == 0) cloud.emplace_back(i + 0.5, j + 0.5, k + 0.5);
+  cloud.emplace_back(10.5, 0.5, 0.5);
+  const Ramified sample{.n = {4, 3, 3},
+                        .position = cloud,
+                        .min = Eigen::Vector3d(0, 0, 0),
+                        .max = Eigen::Vector3d(12, 8, 8),
+                        .nbVirtualFinerLevels = 2,
+                        .finestConnectivity = false};
+  const auto grid = made(sample);
+  CHECK(grid.levels.back().hexahedra.size() == 8 * 8 * 8 + 1);
+  CHECK(grid.hexahedra.size() == 2 * 2 * 2 + 1);
+  CHECK(lots(grid) == 2);
+  CHECK(grid.points.size() == 27 + 8);
+}
+
 TEST_CASE("surfaces in one another have materials of their own") {
   Mesh outer, inner;
   add_block(outer, {0.1, 0.1, 0.1}, {3.9, 2.9, 2.9});

@@ -237,6 +237,9 @@ inline constexpr std::array nodeAttributesWithoutMeaning =
                                      "canChangeSleepingState",
                                      "multithreadSimulation",
                                      "multiThreadSimulation",
+                                     "currentLevel",  // of resolutions, which SOFA has no longer
+                                     "coarsestLevel",
+                                     "finestLevel",
                                      "visual",
                                      "color",
                                      "defaultContactDistance",

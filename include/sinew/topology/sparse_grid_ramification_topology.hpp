@@ -15,7 +15,7 @@ namespace sinew {
 /// branches of the body has a hexahedron for each, at the same place (Nesme, Kry, Jerabkova, Faure 2009).
 /// What meets is seen in a grid whose cells are halved nbVirtualFinerLevels times: there the cells with a
 /// face in common are joined, with finestConnectivity only where the surface crosses that face or one of them
-/// is inside. A BarycentricMapping finds the hexahedron of a point by the fine cell in which it lies. A
+/// is inside; without, points alone will do, as for a SparseGridTopology. A BarycentricMapping finds the hexahedron of a point by the fine cell in which it lies. A
 /// hexahedron is as filled as its fine cells are in the mean; one of several in a cell as the last of them,
 /// over 8, as in SOFA.
 struct SparseGridRamificationTopology {
@@ -76,7 +76,8 @@ namespace sinew {
 
 SINEW_ONCE void SparseGridRamificationTopology::generate(std::string_view where) {
   const std::string at = text(where, ": SparseGridRamificationTopology");
-  const Mesh surface = detail::read_surface(at, fileTopology, position, triangles, quads);
+  const Mesh surface =
+      detail::read_surface(at, fileTopology, position, triangles, quads, !finestConnectivity);
   const auto grid = cells_of_surface(*this, at, surface);
   auto finest = detail::finest_parts(grid, onlyInsideCells);
   detail::fill_by_surface(finest, grid, fillWeighted);
