@@ -52,7 +52,7 @@ V direction(Simplex<double, NA> const& a, Simplex<double, NB> const& b) {
 }  // namespace
 
 TEST_CASE("the distance of random pairs is that in quadruple precision", "[collision]") {
-  const int pairs = sanitized ? 300 : 5000;
+  const int pairs = brief ? 300 : 5000;
   // 6 roundings of the size, as in closest_points.cpp
   CHECK(largest_error<1, 2>(pairs) < 6);
   CHECK(largest_error<1, 3>(pairs) < 6);

@@ -113,7 +113,7 @@ std::string message(std::vector<V> points) {
 TEST_CASE("boxes along the axes: distance, depth and direction in closed form", "[ccd]") {
   Random random{std::mt19937_64(1)};
   int apart = 0, inside = 0;
-  for (int i = 0; i < (sanitized ? 3000 : 20000); ++i) {
+  for (int i = 0; i < (brief ? 3000 : 20000); ++i) {
     const V halfA(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
     const V halfB(random.uniform(0.1, 2), random.uniform(0.1, 2), random.uniform(0.1, 2));
     const V offset = 3 * random.vector();
@@ -143,8 +143,8 @@ TEST_CASE("boxes along the axes: distance, depth and direction in closed form", 
       }
     }
   }
-  CHECK(apart > (sanitized ? 700 : 5000));
-  CHECK(inside > (sanitized ? 300 : 2000));
+  CHECK(apart > (brief ? 700 : 5000));
+  CHECK(inside > (brief ? 300 : 2000));
 }
 
 TEST_CASE("boxes that touch at faces, edges and corners", "[ccd]") {
@@ -176,7 +176,7 @@ TEST_CASE("balls of many points", "[ccd]") {
   const ConvexHull ball(p);
   const double sag = 0.5 * 2.8 * 2.8 / n;
   Random random{std::mt19937_64(2)};
-  for (int i = 0; i < (sanitized ? 30 : 200); ++i) {
+  for (int i = 0; i < (brief ? 30 : 200); ++i) {
     const V way = random.vector().normalized() * random.uniform(0.5, 4);
     const auto c = convex_contact(PosedHull{ball, {V(0, 0, 0), random.rotation()}},
                                   PosedHull{ball, {way, random.rotation()}});
@@ -234,7 +234,7 @@ TEST_CASE("random hulls apart: the distance is that of all triangles", "[ccd]") 
   Random random{std::mt19937_64(3)};
   int apart = 0;
   double worst = 0;
-  for (int i = 0; i < (sanitized ? 1000 : 4000); ++i) {
+  for (int i = 0; i < (brief ? 1000 : 4000); ++i) {
     const std::size_t countA = 1 + random.engine() % 5, countB = 3 + random.engine() % 3;
     auto a = random.cloud(countA, V(0, 0, 0)), b = random.cloud(countB, 2 * random.vector());
     if (i % 3 == 0)
@@ -264,7 +264,7 @@ TEST_CASE("random hulls that overlap: the depth is that of the nearest face of t
   Random random{std::mt19937_64(4)};
   double worst = 0;
   int deeper = 0, inside = 0;
-  for (int i = 0; i < (sanitized ? 300 : 2000); ++i) {
+  for (int i = 0; i < (brief ? 300 : 2000); ++i) {
     auto a = random.cloud(4 + random.engine() % 3, V(0, 0, 0)),
          b = random.cloud(4 + random.engine() % 2, 0.5 * random.vector());
     if (i % 3 == 0)
@@ -287,7 +287,7 @@ TEST_CASE("random hulls that overlap: the depth is that of the nearest face of t
   }
   INFO(inside << " overlap, of which the depth is not the least for " << deeper << "; worst of the others "
               << worst);
-  CHECK(inside > (sanitized ? 100 : 1000));
+  CHECK(inside > (brief ? 100 : 1000));
   // measured: none of 11,000 general hulls, 1 of 9,000 of whole coordinates
   CHECK(deeper <= 1);
   CHECK(worst < 2e-14);
@@ -298,7 +298,7 @@ TEST_CASE("hulls against points, segments and triangles", "[ccd]") {
   simplex_pairs::PairMaker<double, 3, 3> maker{std::mt19937_64(5)};
   Simplex<double, 3> a, b;
   double worst = 0, worstFlat = 0;
-  for (int i = 0; i < (sanitized ? 4000 : 100000); ++i) {
+  for (int i = 0; i < (brief ? 4000 : 100000); ++i) {
     const auto kind = maker.make(a, b);
     if (kind == simplex_pairs::farAway) continue;
     const ConvexHull hull({a[0], a[1], a[2]});

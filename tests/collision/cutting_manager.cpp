@@ -126,7 +126,7 @@ TEST_CASE("hundreds of random strokes, with jumps, removals and a blade that is 
     limited.snapping = 0.1 * seed;
     auto sim = scene(b, limited, {{3, 1, -1}, {3, 1, 3}}, 0.1);
     sim.init();
-    for (int i = 0; i < (sanitized ? 60 : 150); ++i) {
+    for (int i = 0; i < (brief ? 60 : 150); ++i) {
       auto& blade = sim.at<"tool">().state().position;
       const bool jumps = i % 10 == 0;
       for (auto& p : blade) p += Point(u(random), u(random), u(random)) * (jumps ? 3. : 0.4);

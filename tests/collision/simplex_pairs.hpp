@@ -16,7 +16,7 @@ namespace simplex_pairs {
 using sinew::Simplex;
 using sinew::Vec;
 
-constexpr int manyPairs = sanitized ? 30000 : 1000000;
+constexpr int manyPairs = brief ? 30000 : 1000000;
 
 enum Kind {
   general,

@@ -140,7 +140,7 @@ bool same(List const& a, List const& b) {
 /// in the same motion, must go on in the same way to the bit.
 template <class Linear>
 int remove_at_random(int cells, int steps, int every, Linear linear) {
-  if (sanitized) steps /= 8, every /= 8;
+  if (brief) steps /= 8, every /= 8;
   const Block whole(cells);
   const Mesh skin = skin_of(whole);
   auto sim = scene(whole, skin, linear);

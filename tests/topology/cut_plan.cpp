@@ -54,7 +54,7 @@ TEST_CASE("a partial cut, one that completes it, and one that crosses both") {
 }
 
 TEST_CASE("a plane cut in steps parts the block as one that is cut at once") {
-  for (int seed = 0; seed < (sanitized ? 15 : 60); ++seed) {
+  for (int seed = 0; seed < (brief ? 15 : 60); ++seed) {
     std::mt19937 random{unsigned(seed)};
     std::uniform_real_distribution<double> u(-1, 1);
     Body b = block(6, 4, 4, 0.125 * (seed % 3));
@@ -72,7 +72,7 @@ TEST_CASE("a plane cut in steps parts the block as one that is cut at once") {
 }
 
 TEST_CASE("random cuts, one after the other") {
-  for (int seed = 0; seed < (sanitized ? 40 : 150); ++seed) {
+  for (int seed = 0; seed < (brief ? 40 : 150); ++seed) {
     std::mt19937 random{unsigned(seed)};
     std::uniform_real_distribution<double> u(-1, 5);
     auto point = [&] { return Point(u(random), u(random), u(random)); };

@@ -15,9 +15,9 @@ namespace sinew {
 /// branches of the body has a hexahedron for each, at the same place (Nesme, Kry, Jerabkova, Faure 2009).
 /// What meets is seen in a grid whose cells are halved nbVirtualFinerLevels times: there the cells with a
 /// face in common are joined, with finestConnectivity only where the surface crosses that face or one of them
-/// is inside; without, points alone will do, as for a SparseGridTopology. A BarycentricMapping finds the hexahedron of a point by the fine cell in which it lies. A
-/// hexahedron is as filled as its fine cells are in the mean; one of several in a cell as the last of them,
-/// over 8, as in SOFA.
+/// is inside; without, points alone will do, as for a SparseGridTopology. A BarycentricMapping finds the
+/// hexahedron of a point by the fine cell in which it lies. A hexahedron is as filled as its fine cells are
+/// in the mean; one of several in a cell as the last of them, over 8, as in SOFA.
 struct SparseGridRamificationTopology {
   using Role = role::Topology;
   static constexpr std::string_view className = "SparseGridRamificationTopology";
