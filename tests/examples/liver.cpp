@@ -18,7 +18,7 @@ auto small_liver(double density = 0) {
 
 }  // namespace
 
-TEST_CASE("liver: hangs in equilibrium once it has settled") {
+TEST_CASE("liver: hangs in equilibrium once it has settled", "[long]") {
   auto sim = small_liver();
   sim.init();
   for (int i = 0; i < 3000; ++i) sim.animate(0.02);
