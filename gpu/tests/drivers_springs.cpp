@@ -12,12 +12,12 @@ TEST_CASE("springs of a grid on the device equal those of the processor") {
   agrees<GridSprings, Vec3f>();
 }
 TEST_CASE("penalties of a plane on the device equal those of the processor") {
-  agrees<Plane, Vec3d>();
-  agrees<Plane, Vec3f>();
+  agrees<PenaltyPlane, Vec3d>();
+  agrees<PenaltyPlane, Vec3f>();
 }
 TEST_CASE("penalties of a sphere on the device equal those of the processor") {
-  agrees<Sphere, Vec3d>();
-  agrees<Sphere, Vec3f>();
+  agrees<PenaltySphere, Vec3d>();
+  agrees<PenaltySphere, Vec3f>();
 }
 TEST_CASE("springs on the device move freely as a whole") {
   moves_freely<GridSprings, Vec3d>(0);

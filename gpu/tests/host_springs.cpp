@@ -6,9 +6,9 @@ namespace gpu_test {
 
 template HostAnswers<Vec3d> on_host<GridSprings, Vec3d>(int, bool);
 template HostAnswers<Vec3f> on_host<GridSprings, Vec3f>(int, bool);
-template HostAnswers<Vec3d> on_host<Plane, Vec3d>(int, bool);
-template HostAnswers<Vec3f> on_host<Plane, Vec3f>(int, bool);
-template HostAnswers<Vec3d> on_host<Sphere, Vec3d>(int, bool);
-template HostAnswers<Vec3f> on_host<Sphere, Vec3f>(int, bool);
+template HostAnswers<Vec3d> on_host<PenaltyPlane, Vec3d>(int, bool);
+template HostAnswers<Vec3f> on_host<PenaltyPlane, Vec3f>(int, bool);
+template HostAnswers<Vec3d> on_host<PenaltySphere, Vec3d>(int, bool);
+template HostAnswers<Vec3f> on_host<PenaltySphere, Vec3f>(int, bool);
 
 }  // namespace gpu_test

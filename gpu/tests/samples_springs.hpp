@@ -19,7 +19,7 @@ struct GridSprings {
 };
 
 /// One-sided, two-sided, with the force limited.
-struct Plane {
+struct PenaltyPlane {
   static constexpr int variants = 3;
   template <class D>
   static auto make(int v) {
@@ -32,7 +32,7 @@ struct Plane {
   }
 };
 
-struct Sphere {
+struct PenaltySphere {
   static constexpr int variants = 2;
   template <class D>
   static auto make(int v) {
