@@ -67,7 +67,7 @@ auto scene(Sheet const& s, double strain, TearingEngine<Vec3d> const& engine,
            std::vector<int> const& held = {-1}) {
   return Simulation{node<"root">(
       EulerImplicitSolver{.rayleighMass = 0.1},
-      CGLinearSolver<>{.iterations = 500, .tolerance = 1e-10, .threshold = 1e-30},
+      CGLinearSolver<>{.iterations = 500, .tolerance = 1e-14, .threshold = 1e-30},
       node<"sheet">(
           MeshTopology{.triangles = s.triangles},
           MechanicalObject<Vec3d>{.position = stretched(s.points, strain), .restPosition = s.points},
@@ -215,7 +215,7 @@ TEST_CASE("a sheet with a hole tears beside it, at three times the tension", "[l
   for (const double threshold : {most, least}) {
     Simulation sim{node<"root">(
         StaticSolver{},
-        CGLinearSolver<>{.iterations = 3000, .tolerance = 1e-8, .threshold = 1e-30},
+        CGLinearSolver<>{.iterations = 3000, .tolerance = 1e-12, .threshold = 1e-30},
         node<"sheet">(
             MeshTopology{.triangles = s.triangles},
             MechanicalObject<Vec3d>{.position = x, .restPosition = s.points},
@@ -257,7 +257,7 @@ TEST_CASE("a bar of tetrahedra tears at the threshold, and into two", "[long]") 
     const double threshold = 20;
     Simulation sim{node<"root">(
         EulerImplicitSolver{.rayleighMass = 0.1},
-        CGLinearSolver<>{.iterations = 500, .tolerance = 1e-10, .threshold = 1e-30},
+        CGLinearSolver<>{.iterations = 500, .tolerance = 1e-14, .threshold = 1e-30},
         node<"bar">(MeshTopology{.tetrahedra = b.tetrahedra},
                     MechanicalObject<Vec3d>{.position = stretched(b.points, part * threshold / young),
                                             .restPosition = b.points},
